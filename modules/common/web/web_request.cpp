@@ -91,25 +91,27 @@ WebAnswer AnswerPictures(const WebRequest& request, const WebAccess& access, con
   return pictures;
 }
 
+/// Name or address, with a port or without; no user in front of it.
+bool IsHost(std::string_view text) {
+  const auto fits = [](unsigned char c) {
+    return std::isalnum(c) != 0 ||
+           std::string_view("-.:[]").find(static_cast<char>(c)) != std::string_view::npos;
+  };
+  return !text.empty() && std::all_of(text.begin(), text.end(), fits);
+}
+
 }  // namespace
 
 bool IsOrigin(std::string_view text) {
   if (text == "file://") return true;
-  for (const std::string_view scheme : {"http://", "https://"}) {
-    if (!text.starts_with(scheme)) continue;
-    const std::string_view host = text.substr(scheme.size());
-    const auto fits = [](unsigned char c) {
-      return std::isalnum(c) != 0 ||
-             std::string_view("-.:[]").find(static_cast<char>(c)) != std::string_view::npos;
-    };
-    return !host.empty() && std::all_of(host.begin(), host.end(), fits);
-  }
+  for (const std::string_view scheme : {"http://", "https://"})
+    if (text.starts_with(scheme)) return IsHost(text.substr(scheme.size()));
   return false;
 }
 
 WebAnswer Answer(const WebRequest& request, const WebFiles& files, const WebAccess& access,
                  std::string_view camera) {
-  if (request.host.empty()) return RefuseRequest{400, "expected a Host"};
+  if (!IsHost(request.host)) return RefuseRequest{400, "expected a Host"};
   if (access.loopback_only && !IsLoopback(NameOf(request.host)))
     return RefuseRequest{403, "expected localhost or 127.0.0.1 as the address"};
   if (request.method != "GET" && request.method != "HEAD") return RefuseRequest{405, "expected GET"};

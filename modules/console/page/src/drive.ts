@@ -22,6 +22,11 @@ const HEAD_KEYS: Record<string, [number, number]> = {
   KeyQ: [3, 1], KeyE: [3, -1],
 };
 
+/** Whether the finger or the left button is down: while another button is, letting go of this one is a movement. */
+function isPressed(event: PointerEvent): boolean {
+  return (event.buttons & 1) !== 0;
+}
+
 type Button = "rearm" | "take_over" | "mode" | "range";
 
 export class Hand {
@@ -37,14 +42,16 @@ export class Hand {
   constructor(private readonly canvas: HTMLCanvasElement, private readonly slider: HTMLInputElement,
     private readonly send: (report: StickReport) => void) {
     document.addEventListener("keydown", (event) => this.keyDown(event));
-    document.addEventListener("keyup", (event) => {
-      if (this.keys.delete(event.code)) this.step();
-    });
+    document.addEventListener("keyup", (event) => this.keyUp(event));
+    document.addEventListener("contextmenu", () => this.letGo());  // a menu takes what the hand does next
     window.addEventListener("blur", () => this.letGo());
     document.addEventListener("visibilitychange", () => this.letGo());
     window.addEventListener("pagehide", () => this.letGo());
     canvas.addEventListener("pointerdown", (event) => this.dragStick(event));
     slider.addEventListener("pointerdown", (event) => this.holdTurn(event));
+    slider.addEventListener("input", () => {
+      if (this.turn === undefined) slider.value = "0";  // moved by keys: nothing holds it
+    });
     window.setInterval(() => this.step(), PERIOD_MS);
   }
 
@@ -102,7 +109,15 @@ export class Hand {
     return document.visibilityState === "visible" && document.hasFocus();
   }
 
+  // While the command key of a Mac is down no key is said to go up: whatever is held then may have been let go since.
+  // Keyboards on screens and of remote desktops may not say which key went up.
+  private keyUp(event: KeyboardEvent): void {
+    if (event.key === "Meta" || event.metaKey || event.code === "") this.letGo();
+    else if (this.keys.delete(event.code)) this.step();
+  }
+
   private keyDown(event: KeyboardEvent): void {
+    if (event.key === "Meta" || event.metaKey) this.letGo();
     if (event.code === "Space") {
       event.preventDefault();
       if (!event.repeat) this.onStop();
@@ -118,32 +133,39 @@ export class Hand {
 
   private dragStick(start: PointerEvent): void {
     const middle = this.canvas.clientWidth / 2, reach = middle - 22;
+    if (start.button !== 0) return;
     const take = (event: PointerEvent): void => {
+      if (!isPressed(event)) return end();
       const x = (event.offsetX - middle) / reach, y = (middle - event.offsetY) / reach;
       const size = Math.max(1, Math.hypot(x, y));
       this.stick = [x / size, y / size];
     };
-    this.canvas.setPointerCapture(start.pointerId);
-    take(start);
     const end = (): void => {
       this.stick = undefined;
       this.canvas.removeEventListener("pointermove", take);
     };
+    this.canvas.setPointerCapture(start.pointerId);
+    take(start);
     this.canvas.addEventListener("pointermove", take);
     for (const name of ["pointerup", "pointercancel", "lostpointercapture"])
       this.canvas.addEventListener(name, end, { once: true });
   }
 
   private holdTurn(start: PointerEvent): void {
+    if (start.button !== 0) return;
     this.slider.setPointerCapture(start.pointerId);
+    this.turn = 0;
     const take = (): void => { this.turn = -Number(this.slider.value) / 100; };
+    const watch = (event: PointerEvent): void => { if (!isPressed(event)) end(); };
     const end = (): void => {
       this.turn = undefined;
       this.slider.value = "0";
       this.slider.blur();  // arrows turn it no more, and drive again
       this.slider.removeEventListener("input", take);
+      this.slider.removeEventListener("pointermove", watch);
     };
     this.slider.addEventListener("input", take);
+    this.slider.addEventListener("pointermove", watch);
     for (const name of ["pointerup", "pointercancel"]) this.slider.addEventListener(name, end, { once: true });
   }
 
