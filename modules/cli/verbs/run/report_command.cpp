@@ -49,6 +49,8 @@ int ReportLog(const ReportOptions& options) {
   std::vector<std::string> logs = LogsIn(options.a);
   if (!options.b.empty()) logs.push_back(options.b);
   const std::string file = options.out.empty() ? "log-report.html" : options.out;
+  for (const std::string& in : logs) RequireNewFile(file, in, options.force);
+  if (!options.map.empty()) RequireNewFile(file, options.map, options.force);
   const RunRecord record = RecordOfLogs(logs);
   std::optional<GroundPlan> plan;
   if (!options.map.empty()) plan = LoadConfig<GroundPlan>(options.map);
