@@ -15,11 +15,13 @@ struct ExploreMissionConfig {
   double reconsider_s = 2.5;  ///< so often it is looked whether the frontier ahead is still one
   double stands_s = 30;       ///< a robot that holds on its way for so long has the mission fail
   double idle_s = 12;         ///< a robot that comes no further for so long, held by nothing, is blocked
-  double thing_m = 0.3;       ///< size of what is in the way, of which one side is known only
+  double thing_m = 0.8;       ///< size of what is in the way, of which one side is known only
   int retries = 3;            ///< paths that end elsewhere before a frontier is given up
   int rounds = 2;             ///< so often what was left is tried again in the end without more being seen
   MissionLimits limits{.resend_path_s = 4, .blocked_s = 3, .silent_s = 8, .limit_s = 3600};
-  RoutePlannerConfig route{.most_poses = 60000};  ///< who has many frontiers does not search for one for long
+  /// Who has many frontiers does not search for one for long. Among walls that are not known it does not
+  /// turn: sonars hear what its sides face, and a corner swings into what they do not.
+  RoutePlannerConfig route{.turn_m = 0.6, .sideways = 0, .most_poses = 60000};
   ExplorationConfig choice;
   FloorGraphConfig graph;
 

@@ -17,6 +17,8 @@ namespace priamos::planner {
 struct RoutePlannerConfig {
   double easy_margin_m = 0.30;   ///< preferred clearance to everything
   double least_margin_m = 0.10;  ///< clearance where there is no such route
+  double turn_m = 0.15;          ///< what turning by 22.5 degrees costs, in metres driven forward
+  double sideways = 0.15;        ///< driving backwards costs so much more, sideways half of it
   int most_poses = 0;            ///< looked at for either; 0: all
 
   void Describe(Archive& a);
