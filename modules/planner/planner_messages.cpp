@@ -138,7 +138,8 @@ DriveReport FromMessage(const drive_status_t& message) {
           message.estop_changes,
           message.limit == drive_status_t::LIMIT_TOUCHED && !bumped,
           message.remaining_m,
-          message.nearest_m >= 0 ? std::optional(message.nearest_m) : std::nullopt};
+          message.nearest_m >= 0 ? std::optional(message.nearest_m) : std::nullopt,
+          message.driver == lease_request_t::TELEOP || message.driver == lease_request_t::CONSOLE};
 }
 
 PassedOpening FromMessage(const opening_t& message) {

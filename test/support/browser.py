@@ -115,8 +115,9 @@ class Browser:
     def key(self, action, code, key):
         self.call("Input.dispatchKeyEvent", type={"down": "keyDown", "up": "keyUp"}[action], code=code, key=key)
 
-    def mouse(self, action, x, y):
-        self.call("Input.dispatchMouseEvent", type=action, x=x, y=y, button="left", clickCount=1)
+    def mouse(self, action, x, y, button="left", **held):
+        """`buttons=` of those that are down then: 1 left, 2 right."""
+        self.call("Input.dispatchMouseEvent", type=action, x=x, y=y, button=button, clickCount=1, **held)
 
     def picture(self, file):
         with open(file, "wb") as out:

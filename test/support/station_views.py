@@ -60,6 +60,30 @@ def keyboard(browser):
     browser.key("up", "KeyW", "w")
 
 
+def command_key(browser):
+    """Of a Mac: the up of what was held does not come."""
+    browser.key("down", "KeyW", "w")
+    wait_for(lambda: drives(browser), 5)
+    browser.key("down", "MetaLeft", "Meta")
+    report("command key ends the drive", wait_for(lambda: not drives(browser), 1))
+    browser.key("up", "MetaLeft", "Meta")
+    time.sleep(0.5)
+    report("held key goes on after the command key", drives(browser))
+    browser.key("up", "KeyW", "w")
+
+
+def two_buttons(browser):
+    """The right one is held while the left one is let go, for which a page gets no pointerup."""
+    x, y = middle(browser, "stick")
+    browser.mouse("mousePressed", x, y, buttons=1)
+    browser.mouse("mouseMoved", x, y - 40, buttons=1)
+    report("left button drives", wait_for(lambda: drives(browser), 5))
+    browser.mouse("mousePressed", x, y - 40, "right", buttons=3)
+    browser.mouse("mouseReleased", x, y - 40, buttons=2)
+    report("left button let go ends the drive", wait_for(lambda: not drives(browser), 1))
+    browser.mouse("mouseReleased", x, y - 40, "right", buttons=0)
+
+
 def stick(browser):
     x, y = middle(browser, "stick")
     browser.mouse("mousePressed", x, y)
@@ -292,7 +316,9 @@ def main():
     report("connected", browser.text("connection"))
     browser.picture(FOLDER + "/start.png")
     keyboard(browser)
+    command_key(browser)
     stick(browser)
+    two_buttons(browser)
     stop_and_rearm(browser)
     mission(browser)
     place(browser)

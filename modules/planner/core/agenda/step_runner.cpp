@@ -91,6 +91,9 @@ void StepRunner::FollowLeg(Time now) {
         fmt::format("no news of the robot: the radio link is {}; it goes on as far as its path leads",
                     missions_.heard().link_up ? "up" : "down");
   }
+  const auto& drive = missions_.heard().drive;
+  if (missions_.running() && drive && drive->by_hand)
+    state_.text = "begins when nobody drives by hand; " + state_.text;
   if (paused_ && missions_.running()) state_.text = PausedText(now);
   if (missions_.running()) return;
   if (state_.phase == Phase::kFailed || !legs_) return Finish(state_.phase, state_.text);

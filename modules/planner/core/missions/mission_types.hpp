@@ -54,6 +54,7 @@ struct DriveReport {
   bool touched = false;               ///< the last motion ended because the base touched something
   double remaining_m = 0;             ///< distance left on the path
   std::optional<double> nearest_m{};  ///< free distance in the direction of driving, if there is an echo
+  bool by_hand = false;               ///< an operator has the lease: no path is driven
 };
 
 /// A narrow opening that the robot drove through, by its sonars: evidence that does not rest on its pose

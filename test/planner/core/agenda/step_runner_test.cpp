@@ -85,6 +85,18 @@ TEST(StepRunner, WithoutTheRobotTheOrderFailsAfterAWhile) {
   EXPECT_THAT(rig.dut.state().text, HasSubstr("no pose from the robot for 8 s"));
 }
 
+TEST(StepRunner, AnOrderWhileSomebodyDrivesByHandSaysThatItWaits) {
+  AgendaRig rig;
+  rig.robot.by_hand = true;
+  rig.StepFor(1);
+  rig.Order({Go(4, 2.4)});
+  rig.StepFor(2);
+  EXPECT_THAT(rig.dut.state().text, testing::StartsWith("begins when nobody drives by hand; "));
+  rig.robot.by_hand = false;
+  rig.StepFor(1);
+  EXPECT_THAT(rig.dut.state().text, testing::Not(HasSubstr("by hand")));
+}
+
 TEST(StepRunner, ABlackoutOnTheWayIsDrivenThroughAndToldAfterwards) {
   AgendaRig rig({1.0, 2.4, 0});
   rig.Order({Go(5.0, 2.4)});

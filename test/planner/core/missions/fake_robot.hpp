@@ -33,6 +33,7 @@ class FakeRobot {
   std::optional<LeafSighting> leaf;
   bool silent = false;   ///< nothing comes through in either direction
   bool blocked = false;  ///< stands before an obstacle
+  bool by_hand = false;  ///< an operator has the lease
   bool lost = false;     ///< holds, because it does not know where it is
   bool touched = false;  ///< stands because it touched something
   bool deaf = false;     ///< its sonars notice no opening
@@ -196,6 +197,7 @@ class FakeRobot {
                       touched,
                       Remaining(),
                       std::nullopt};
+    drive.by_hand = by_hand;
     if (blocked) drive.mode = DriveMode::kBlocked;
     if (touched) drive.mode = DriveMode::kHolding;
     Later([this, pose, drive] {
