@@ -18,7 +18,8 @@ struct ExploreMissionConfig {
   double thing_m = 0.8;       ///< size of what is in the way, of which one side is known only
   int retries = 3;            ///< paths that end elsewhere before a frontier is given up
   int rounds = 2;             ///< so often what was left is tried again in the end without more being seen
-  MissionLimits limits{.resend_path_s = 4, .blocked_s = 3, .silent_s = 8, .limit_s = 3600};
+  /// It goes back before the robot forgets what it stopped for: near things are remembered for 5 s.
+  MissionLimits limits{.resend_path_s = 4, .blocked_s = 1.5, .silent_s = 8, .limit_s = 3600};
   /// Who has many frontiers does not search for one for long. Among walls that are not known it does not
   /// turn: sonars hear what its sides face, and a corner swings into what they do not.
   RoutePlannerConfig route{.turn_m = 0.6, .sideways = 0, .most_poses = 60000};

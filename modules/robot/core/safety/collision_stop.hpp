@@ -18,7 +18,7 @@ struct CollisionStopConfig {
   BrakingLaw braking{};     ///< deceleration of the base, and the age of an echo when the wheels obey it
   double look_ahead_m = 5;
   double memory_margin_m = -0.03;  ///< instead of margin_m for remembered things, whose place is vague
-  double memory_gap_m = 0.05;      ///< instead of gap_m
+  double memory_gap_m = 0.08;      ///< instead of gap_m
 
   void Describe(Archive& a);
 };

@@ -289,13 +289,24 @@ TEST_F(LogCommand, NoVerbWritesIntoTheLogThatItReads) {
       {"log", "filter", log_, log_, "--force"},
       {"log", "repair", log_, log_, "--force"},
       {"log", "index", log_, "--out", log_, "--force"},
-      {"log", "export", log_, "jsonl", "--out", log_, "--force"}};
+      {"log", "export", log_, "jsonl", "--out", log_, "--force"},
+      {"report", log_, "--out", log_, "--force"}};
   for (const auto& line : lines) {
     const auto answer = Priamos(line);
     EXPECT_EQ(answer.exit_code, 2) << line[1];
     EXPECT_THAT(answer.err, HasSubstr("expected another file than the one that is read")) << line[1];
   }
   EXPECT_EQ(FileContent(log_), before);
+}
+
+TEST_F(LogCommand, AReportIsNotWrittenIntoTheMapThatItReads) {
+  const std::string map = folder_ / "map.toml",
+                    before = FileContent(PRIAMOS_SOURCE_DIR "/config/sim/maps/door.toml");
+  std::ofstream(map) << before;
+  const auto answer = Priamos({"report", log_, "--map", map, "--out", map, "--force"});
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, HasSubstr("expected another file than the one that is read"));
+  EXPECT_EQ(FileContent(map), before);
 }
 
 TEST_F(LogCommand, AMissingLogAndAWrongFormatAreNamed) {
