@@ -42,7 +42,7 @@ void StepRunner::Begin(const AgendaStep& step, Time now, bool moved) {
 MissionActions StepRunner::Tick(Time now) {
   if (step_ && !under_way_ && !paused_) step_->wait_s ? Wait(now) : StartLeg(now);
   last_tick_ = now;
-  const MissionActions actions = missions_.Tick(now);
+  MissionActions actions = missions_.Tick(now);
   if (step_ && under_way_) FollowLeg(now);
   return actions;
 }
