@@ -18,6 +18,10 @@ constexpr double kRetreat_m = 0.5;
 /// A base that is stopped so near to where it was stopped before is shut in, and goes back farther; in the
 /// end also one that stands so near to it.
 constexpr double kSamePlace_m = 0.3, kBack_m = 1.5, kShutIn_m = 1.0;
+/// A base that is stopped so near to its border was stopped by what is there; one that is stopped more often
+/// at one place gives up borders that are farther away, too.
+constexpr double kAtTarget_m = 2.5;
+constexpr int kMostStopsHere = 3;
 /// A round that saw no more than so much more has seen nothing.
 constexpr double kMore_m2 = 1.0;
 /// Frontiers that the outcome names; a result holds no more words.
@@ -75,6 +79,7 @@ std::optional<Refusal> ExploreMission::Start(const MissionOrder& /*order*/) {
   most_seen_m2_ = 0;
   backing_ = false;
   stopped_at_.reset();
+  stops_here_ = 0;
   undecided_ = false;
   return std::nullopt;
 }
@@ -180,11 +185,14 @@ void ExploreMission::OnStop(MissionControl& control, const Stop& stop) {
     return control.Fail(stop.reason + "; next: look what it is, and order it again");
   const Eigen::Vector2d here = BaseOf(control).translation();
   const bool again = stopped_at_ && (here - *stopped_at_).norm() < kSamePlace_m;
+  stops_here_ = again ? stops_here_ + 1 : 0;
   stopped_at_ = here;
   if (backing_) return Next(control);
   if (again) {
-    exploration_.GiveUp(goal_->target, stop.reason);
-    if (!GoBack(control, kBack_m)) Next(control);
+    // What is in the way here says nothing of a border that is far away.
+    if ((goal_->target - here).norm() < kAtTarget_m || stops_here_ > kMostStopsHere)
+      exploration_.GiveUp(goal_->target, stop.reason);
+    if (!GoBack(control, kBack_m * stops_here_)) Next(control);
     return;
   }
   if (auto thing = ThingAhead(control, footprint_, config_.thing_m)) {

@@ -69,6 +69,7 @@ class ExploreMission : public Mission {
   double most_seen_m2_ = 0;                    ///< at the beginning of a round
   bool backing_ = false;                       ///< on the way back, to no frontier
   std::optional<Eigen::Vector2d> stopped_at_;  ///< where something stopped the base last
+  int stops_here_ = 0;                         ///< in a row at one place, after the first
   bool undecided_ = false;                     ///< no way was found yet
   std::optional<Time> considered_;             ///< whether goal_ is still a frontier
   bool learned_ = false;                       ///< the map as it is now was taken into account
