@@ -17,8 +17,6 @@ using Eigen::Vector2i;
 
 /// In which direction a frontier leads is seen from what is unknown so near.
 constexpr int kOutwardCells = 5;
-/// Nothing unknown within this: the corner of a room.
-constexpr double kReach_m = 1.5;
 
 }  // namespace
 
@@ -98,7 +96,7 @@ double Exploration::Gain_m2(const Vector2i& cell) const {
 bool Exploration::IsCrumb(const Frontier& frontier) const {
   return std::all_of(frontier.cells.begin(), frontier.cells.end(), [&](const Vector2i& cell) {
     double behind_m2 = 0;
-    VisitUnknownBehind(*grid_, cell, kReach_m,
+    VisitUnknownBehind(*grid_, cell, kLeastReach_m,
                        [&](const Vector2i&, double share_m2) { behind_m2 += share_m2; });
     return behind_m2 < config_.least_gain_m2;
   });

@@ -1,8 +1,6 @@
 #include "planner/core/explore/frontiers.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "common/geometry.hpp"

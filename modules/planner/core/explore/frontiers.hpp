@@ -20,6 +20,9 @@ struct Frontier {
 /// The frontiers of a grid of at least that length, in the order of their first cells.
 std::vector<Frontier> FrontiersOf(const ExploredGrid& grid, double least_m);
 
+/// From a border at least so much is looked at.
+inline constexpr double kLeastReach_m = 1.5;
+
 /// Visits the unknown cells so near to a cell, as far as nothing closed is in between: a cell may come
 /// several times, each time with another share of its area [m2].
 void VisitUnknownBehind(const ExploredGrid& grid, const Eigen::Vector2i& cell, double reach_m,

@@ -18,8 +18,8 @@ using Eigen::Vector2i;
 
 /// What the clearance of a base's middle has over half its width.
 constexpr double kMargin_m = 0.05;
+/// From a cell to those that share a side with it.
 constexpr std::array<std::pair<int, int>, 4> kSides{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
-constexpr double kLeastReach_m = 1.5;
 /// Lines of sight end so far apart, and begin at places so far apart.
 constexpr double kSightRim_m = 0.08, kLooksApart_m = 0.3;
 
