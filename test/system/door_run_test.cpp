@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -59,6 +60,27 @@ TEST(DoorRun, SameSeedGivesIdenticalBytesOnBothBuses) {
   }
   EXPECT_GT(digests[0].events, 1000u);
   EXPECT_EQ(digests[0].hash, digests[1].hash);
+}
+
+std::set<std::string> SharedMemory() {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator("/dev/shm"))
+    if (entry.path().filename().string().starts_with("priamos-")) names.insert(entry.path());
+  return names;
+}
+
+TEST(DoorRun, WhoIsInterruptedLeavesNoSharedMemory) {
+  const bus::Schema schema = bus::OwnTypes();
+  const std::set<std::string> before = SharedMemory();
+  std::set<std::string> during;
+  auto request = Request(1);
+  request.interrupted = [&, times = 0]() mutable {
+    during = SharedMemory();
+    return ++times > 50;
+  };
+  EXPECT_THROW(RunLockstep(schema, request), Interrupted);
+  EXPECT_GT(during.size(), before.size()) << "the cameras' pictures";
+  EXPECT_EQ(SharedMemory(), before);
 }
 
 TEST(DoorRun, NothingButParametersIsEverOnABus) {

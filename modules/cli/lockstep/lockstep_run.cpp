@@ -74,9 +74,10 @@ void Populate(bus::Lockstep& lockstep, const LockstepRequest& request, const Sce
 }
 
 /// Lets the story happen; returns how long it took [s of real time].
-double RunStory(bus::Lockstep& lockstep, ScenarioStory& story) {
+double RunStory(bus::Lockstep& lockstep, ScenarioStory& story, const LockstepRequest& request) {
   const auto start = std::chrono::steady_clock::now();
   lockstep.RunUntil(Time::max(), [&] {
+    if (request.interrupted()) throw Interrupted();
     story.Tick(lockstep.now());
     return story.Done(lockstep.now());
   });
@@ -106,7 +107,7 @@ LockstepResult RunLockstep(const bus::Schema& schema, const LockstepRequest& req
       FindStory(scenario.story)
           .make({scenario, request.seed, lockstep.DriverNode("onboard"), lockstep.DriverNode("offboard"),
                  [&] { return lockstep.OpenSerial(std::string(kHandTty)); }, progress});
-  const double wall_s = RunStory(lockstep, *story);
+  const double wall_s = RunStory(lockstep, *story, request);
   recorder.Flush();
   const double factor = Seconds(lockstep.now() - start) / wall_s;
   const RunInfo info{request.scenario,

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "bus/schema/schema.hpp"
@@ -20,6 +21,12 @@ struct LockstepRequest {
   bool keep_pictures = false;             ///< those that the head uses, in `pictures` in log_folder
   std::function<void(Time, const std::string&)> progress;  ///< simulated time since the start
   std::function<void(std::string_view bus, Time, std::string_view channel, std::span<const std::byte>)> tap;
+  std::function<bool()> interrupted = [] { return false; };  ///< asked all the time; true ends the run
+};
+
+/// Somebody ended the run from outside: it has no result.
+struct Interrupted : std::runtime_error {
+  Interrupted() : std::runtime_error("stopped by a signal") {}
 };
 
 /// Result of a scenario; `duration` in simulated time.
@@ -31,7 +38,7 @@ struct LockstepResult {
   Duration duration{};
 };
 
-/// One scenario in lockstep. Throws ConfigError and what the Apps' start throws.
+/// One scenario in lockstep. Throws ConfigError, Interrupted and what the Apps' start throws.
 LockstepResult RunLockstep(const bus::Schema& schema, const LockstepRequest& request);
 
 }  // namespace priamos::cli

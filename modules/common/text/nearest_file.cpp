@@ -16,11 +16,12 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostFiles = 4;
 
+/// Without links that lead nowhere.
 std::vector<std::string> NamesIn(const fs::path& folder) {
   std::vector<std::string> names;
-  std::error_code unreadable;
+  std::error_code unreadable, unknown;
   for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, unreadable))
-    names.push_back(entry.path().filename());
+    if (fs::exists(entry.path(), unknown)) names.push_back(entry.path().filename());
   std::sort(names.begin(), names.end());
   return names;
 }

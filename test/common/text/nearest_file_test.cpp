@@ -30,6 +30,12 @@ TEST_F(NearestFileTest, AMistypedNameOrEnding) {
   EXPECT_EQ(NearestFileText("", ".lcmlog"), "");
 }
 
+TEST_F(NearestFileTest, ALinkThatLeadsNowhereIsNotNamed) {
+  std::filesystem::create_symlink("no-such-log", folder_ / "night.lcmlog");
+  EXPECT_EQ(NearestFileText(folder_ / "night.lcmlog", ".lcmlog"), "");
+  EXPECT_EQ(NearestFileText(folder_ / "nihgt.lcmlog", ".lcmlog"), "");
+}
+
 TEST_F(NearestFileTest, AMistypedFolderIsFoundTogetherWithWhatIsBehindIt) {
   EXPECT_EQ(NearestFileText(folder_ / "20261122-dor/onboard.lcmlog", ".lcmlog"),
             "; nearest: " + At("20261122-door/onboard.lcmlog"));

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <CLI/App.hpp>
@@ -10,6 +11,7 @@
 #include <iostream>
 
 #include "bus/own_types.hpp"
+#include "bus/real_time_loop.hpp"
 #include "cli/lockstep/factories.hpp"
 #include "cli/lockstep/lockstep_run.hpp"
 #include "cli/options/folder_options.hpp"
@@ -36,8 +38,15 @@ std::ostream& People(const LockstepOptions& options) {
   return options.json && options.json_file.empty() ? std::cerr : std::cout;
 }
 
-LockstepResult RunOne(const bus::Schema& schema, const LockstepOptions& options, std::uint64_t seed) {
+bool HasCome(const bus::SignalWatch& signals) {
+  pollfd come{signals.fd(), POLLIN, 0};
+  return poll(&come, 1, 0) > 0;
+}
+
+LockstepResult RunOne(const bus::Schema& schema, const LockstepOptions& options, std::uint64_t seed,
+                      const bus::SignalWatch& signals) {
   LockstepRequest request = options.request;
+  request.interrupted = [&signals] { return HasCome(signals); };
   request.deployment = FolderOfDeployment(options.deployment);
   request.seed = seed;
   if (!options.log_root.empty())
@@ -94,19 +103,33 @@ void RequireWritable(const LockstepOptions& options) {
                                          options.json_file, std::strerror(errno)));
 }
 
-int Run(const LockstepOptions& options) {
-  RequireWritable(options);
+/// The runs; after a signal those that had come to their end.
+std::vector<Summary> RunAll(const LockstepOptions& options) {
+  const bus::SignalWatch signals;
   const bus::Schema schema = bus::OwnTypes();
   const auto shared = HoldShared();
   std::vector<Summary> all;
+  try {
+    for (int i = 0; i < options.runs; ++i) {
+      const auto seed = options.request.seed + static_cast<std::uint64_t>(i);
+      const auto result = RunOne(schema, options, seed, signals);
+      all.push_back(result.summary);
+      People(options) << Line(result) << std::endl;
+    }
+  } catch (const Interrupted& end) {
+    People(options) << fmt::format("{}; {} of {} runs are done\n", end.what(), all.size(), options.runs);
+  }
+  return all;
+}
+
+int Run(const LockstepOptions& options) {
+  RequireWritable(options);
+  const std::vector<Summary> all = RunAll(options);
   int passed = 0, contacts = 0;
-  for (int i = 0; i < options.runs; ++i) {
-    const auto result = RunOne(schema, options, options.request.seed + static_cast<std::uint64_t>(i));
-    passed += result.summary.passed;
-    contacts += result.summary.contacts;
-    all.push_back(result.summary);
-    People(options) << Line(result) << std::endl;
-    if (options.runs == 1) PrintSummary(People(options), result.summary);
+  for (const Summary& summary : all) {
+    passed += summary.passed;
+    contacts += summary.contacts;
+    if (options.runs == 1) PrintSummary(People(options), summary);
   }
   if (options.json) WriteJson(options.json_file, all);
   if (options.runs > 1)
