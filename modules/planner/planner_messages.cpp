@@ -127,6 +127,11 @@ RobotPose FromMessage(const pose_t& message) {
           CovarianceIn(message)};
 }
 
+std::optional<ThingNear> NearestOf(const drive_status_t& message) {
+  if (!(message.nearest_m >= 0)) return std::nullopt;
+  return ThingNear{message.nearest_m, {message.nearest_x_m, message.nearest_y_m}};
+}
+
 /// A robot that has touched something has dropped its path; one that somebody walked into keeps it.
 DriveReport FromMessage(const drive_status_t& message) {
   const bool bumped = message.limit == drive_status_t::LIMIT_TOUCHED &&
@@ -138,7 +143,7 @@ DriveReport FromMessage(const drive_status_t& message) {
           message.estop_changes,
           message.limit == drive_status_t::LIMIT_TOUCHED && !bumped,
           message.remaining_m,
-          message.nearest_m >= 0 ? std::optional(message.nearest_m) : std::nullopt,
+          NearestOf(message),
           message.driver == lease_request_t::TELEOP || message.driver == lease_request_t::CONSOLE};
 }
 

@@ -33,7 +33,7 @@ class Base : public RobotRig {
     cycle.range_m[0] = range_m;
     drive().AddSonar(cycle, localiser().odometry().pose());
   }
-  double Nearest() { return state().nearest_m.value_or(9); }
+  double Nearest() { return state().nearest ? state().nearest->free_m : 9; }
 };
 
 /// A wall across the way, its face at x.

@@ -292,10 +292,12 @@ TEST(LeaseMessages, WhatDoesNotExistIsRefused) {
 TEST(StatusMessages, SonarIsTheLimitWhenNothingWorseIs) {
   DriveState state;
   state.slowed_by_sonar = true;
-  state.nearest_m = 0.4;
+  state.nearest = {0.4, {0.7, -0.3}};
   const drive_status_t message = ToMessage(state, 0.2, kNow);
   EXPECT_EQ(message.limit, drive_status_t::LIMIT_SONAR);
   EXPECT_EQ(message.nearest_m, 0.4);
+  EXPECT_EQ(message.nearest_x_m, 0.7);
+  EXPECT_EQ(message.nearest_y_m, -0.3);
   EXPECT_EQ(ToMessage(DriveState{}, 0, kNow).nearest_m, -1);
 }
 

@@ -3,7 +3,9 @@
 import { colour, prepare } from "./dom";
 import { Floor } from "./floor";
 import { deadReckoned, ellipse, place, Pose2, sonarPose } from "./geometry";
-import { DoorFound, DoorSeen, Hello, ObstacleLine, Path, Point, Pose, SonarRanges } from "./protocol";
+import {
+  DoorFound, DoorSeen, DriveStatus, Hello, LIMIT_SONAR, ObstacleLine, Path, Point, Pose, SonarRanges,
+} from "./protocol";
 import { Store } from "./store";
 import { Place } from "./target";
 import { ViewPort } from "./view_port";
@@ -125,10 +127,10 @@ export class PlanView {
     context.fill(floor.seen);
     context.restore();
     for (const wall of floor.walls) this.stroke([wall.from, wall.to], colour("learned"), 2.5);
-    for (const edge of floor.edges) this.drawEdge(edge.at, edge.left ? "stale" : "accent");
+    for (const edge of floor.edges) this.drawDot(edge.at, edge.left ? "stale" : "accent");
   }
 
-  private drawEdge(at: Point, style: string): void {
+  private drawDot(at: Point, style: string): void {
     const [u, v] = this.port.toScreen(at);
     this.context.beginPath();
     this.context.arc(u, v, 4, 0, 2 * Math.PI);
@@ -211,6 +213,9 @@ export class PlanView {
   }
 
   private drawObstacles(robot: Pose2): void {
+    const status = this.store.get<DriveStatus>("DRIVE_STATUS");
+    if (status?.limit === LIMIT_SONAR && !this.store.isStale("DRIVE_STATUS"))
+      this.drawDot(place(robot, status.nearest_x_m, status.nearest_y_m), "bad");  // what slows it down
     const line = this.store.get<ObstacleLine>("OBSTACLE_LINE");
     if (line === undefined || this.store.isStale("OBSTACLE_LINE")) return;
     for (const s of line.segments)

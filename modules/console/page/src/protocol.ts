@@ -78,8 +78,12 @@ export interface Pose {
   rho_x_y: number;
 }
 
+/** A limit of DRIVE_STATUS: something is near. */
+export const LIMIT_SONAR = 1;
+
 export interface DriveStatus {
-  mode: number; limit: number; remaining_m: number; speed_m_s: number; nearest_m: number;
+  mode: number; limit: number; remaining_m: number; speed_m_s: number;
+  nearest_m: number; nearest_x_m: number; nearest_y_m: number;
   allowed: number; driver: number; session: number; estop: boolean; refused: number; refusal: number;
 }
 

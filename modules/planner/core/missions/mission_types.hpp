@@ -44,17 +44,23 @@ inline bool IsFresh(const RobotPose& pose, Time now) {
 /// State of the base; kHolding: ordered to stand, kBlocked: an obstacle stops it.
 enum class DriveMode { kIdle, kFollowing, kArrived, kHolding, kBlocked };
 
+/// What the base would meet first if it drove on.
+struct ThingNear {
+  double free_m = 0;            ///< until then
+  Eigen::Vector2d at = {0, 0};  ///< base frame, as it stands now
+};
+
 /// Progress of the robot on its path, as in DRIVE_STATUS; path_id is 0 before the first one.
 struct DriveReport {
   DriveMode mode = DriveMode::kIdle;
   int path_id = 0;
-  std::string limit;                  ///< what limits the speed, in words; empty when nothing does
-  bool estop = false;                 ///< the emergency stop is latched
-  int estop_changes = 0;              ///< how often it was latched or lifted, modulo 256
-  bool touched = false;               ///< the last motion ended because the base touched something
-  double remaining_m = 0;             ///< distance left on the path
-  std::optional<double> nearest_m{};  ///< free distance in the direction of driving, if there is an echo
-  bool by_hand = false;               ///< an operator has the lease: no path is driven
+  std::string limit;                   ///< what limits the speed, in words; empty when nothing does
+  bool estop = false;                  ///< the emergency stop is latched
+  int estop_changes = 0;               ///< how often it was latched or lifted, modulo 256
+  bool touched = false;                ///< the last motion ended because the base touched something
+  double remaining_m = 0;              ///< distance left on the path
+  std::optional<ThingNear> nearest{};  ///< if there is an echo in the direction of driving
+  bool by_hand = false;                ///< an operator has the lease: no path is driven
 };
 
 /// A narrow opening that the robot drove through, by its sonars: evidence that does not rest on its pose

@@ -50,10 +50,17 @@ std::optional<Rectangle> ThingAhead(const MissionControl& control, const Footpri
   const Pose2& base = control.heard().pose->map_from_base;
   const Eigen::Vector2d ahead = DirectionLeft(base, control.path().points, drive.remaining_m);
   if (ahead.norm() < 0.5) return std::nullopt;
-  const double distance_m =
-      Reach(footprint, base.rotation().transpose() * ahead) + drive.nearest_m.value_or(0) + size_m / 2;
-  const Eigen::Vector2d at = base.translation() + distance_m * ahead;
-  return Rectangle{{at.x(), at.y(), std::atan2(ahead.y(), ahead.x())}, Eigen::Vector2d::Constant(size_m / 2)};
+  return ThingMet(base, ahead, drive.nearest, footprint, size_m);
+}
+
+Rectangle ThingMet(const Pose2& base, const Eigen::Vector2d& ahead, const std::optional<ThingNear>& nearest,
+                   const Footprint& footprint, double size_m) {
+  const Eigen::Vector2d own_ahead = base.rotation().transpose() * ahead,
+                        own_left(-own_ahead.y(), own_ahead.x());
+  const Eigen::Vector2d met = nearest ? nearest->at : Reach(footprint, own_ahead) * own_ahead;
+  const double off_middle = std::clamp(met.dot(own_left) / Reach(footprint, own_left), -1.0, 1.0);
+  const Eigen::Vector2d middle = base * (met + size_m / 2 * (own_ahead + off_middle * own_left));
+  return {{middle.x(), middle.y(), std::atan2(ahead.y(), ahead.x())}, Eigen::Vector2d::Constant(size_m / 2)};
 }
 
 double StandWatch::Stands_s(const MissionControl& control) {

@@ -14,9 +14,15 @@ std::vector<Pose2> PointsLeft(const std::vector<Pose2>& points, double remaining
 /// Whether the base has come to the end of the path ordered last, and has told where that is.
 bool HasArrived(const MissionControl& control);
 
-/// Where the thing stands that stops the base: in the direction of its line, as far away as the nearest echo
-/// there, and of `size_m`, because one side of it is known only. nullopt: the path has no direction.
+/// The thing that stops the base, map frame, of `size_m`, because one side of it is known only; see
+/// ThingMet(). nullopt: the path has no direction.
 std::optional<Rectangle> ThingAhead(const MissionControl& control, const Footprint& footprint, double size_m);
+
+/// The thing that a base meets first that drives `ahead`, map frame and of length 1. Its near side is where
+/// the robot heard it, across that direction; nothing heard: before the footprint. What is met with a corner
+/// of the base, the jamb of an opening for instance, reaches from there outwards.
+Rectangle ThingMet(const Pose2& base, const Eigen::Vector2d& ahead, const std::optional<ThingNear>& nearest,
+                   const Footprint& footprint, double size_m);
 
 /// A hold, of a robot that does not know where it is for instance, may end by itself, but is not waited for
 /// for ever. Time without news of the robot does not count.

@@ -330,7 +330,7 @@ void DriveController::NoteSonar(const Twist2& wanted, const Twist2& free, const 
   const double speed = collision_.SpeedOf(wanted);
   const double most = operated ? collision_.SpeedOf(free) : result.allowed.value_or(speed);
   const double left = speed > 0 ? std::min(1.0, most / speed) : 1.0;
-  state_.nearest_m = operated ? Guard().Limit(wanted, around.seen, around.remembered).free_m : result.free_m;
+  state_.nearest = operated ? Guard().Limit(wanted, around.seen, around.remembered).nearest : result.nearest;
   state_.slowed_by_sonar = left < kSlowed;
   state_.allowed = state_.failsafe.action == FailsafeAction::kNone ? left : 0;
 }

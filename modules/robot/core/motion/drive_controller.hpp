@@ -49,8 +49,8 @@ struct DriveState {
   int path_id = 0;  ///< 0 before the first path
   double remaining_m = 0;
   double cross_track_m = 0;
-  std::optional<double> nearest_m;  ///< free distance to the nearest echo in driving direction
-  double allowed = 1;               ///< part of the wanted motion that sonars and failsafe leave
+  std::optional<CollisionStop::Nearest> nearest;  ///< the nearest echo in driving direction
+  double allowed = 1;  ///< part of the wanted motion that sonars and failsafe leave
   LeaseHolder holder;
   bool estop = false;
   int estop_changes = 0;  ///< see Authority

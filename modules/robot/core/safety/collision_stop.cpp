@@ -38,10 +38,14 @@ double FreeDistance(const Footprint& guard, const Twist2& per_metre, const Eigen
   return farthest;
 }
 
-double FreeDistance(const Footprint& guard, const Twist2& per_metre, std::span<const Eigen::Vector2d> points,
-                    double farthest) {
-  for (const Eigen::Vector2d& point : points) farthest = FreeDistance(guard, per_metre, point, farthest);
-  return farthest;
+CollisionStop::Nearest FirstMet(const Footprint& guard, const Twist2& per_metre,
+                                std::span<const Eigen::Vector2d> points, double farthest) {
+  CollisionStop::Nearest first{farthest, {0, 0}};
+  for (const Eigen::Vector2d& point : points) {
+    const double free_m = FreeDistance(guard, per_metre, point, first.free_m);
+    if (free_m < first.free_m) first = {free_m, point};
+  }
+  return first;
 }
 
 /// Is a point within `guard` nearer after a motion than sliding along makes it? The deeper it is in the
@@ -99,14 +103,14 @@ CollisionStop::Result CollisionStop::Limit(const Twist2& wanted, std::span<const
   const double speed = SpeedOf(wanted);
   if (speed < 1e-6) return result;
   const Twist2 per_metre{wanted.vx / speed, wanted.vy / speed, wanted.wz / speed};
-  const double free_seen = FreeDistance(seen_guard_, per_metre, seen, config_.look_ahead_m);
-  const double free_memory = FreeDistance(memory_guard_, per_metre, remembered, config_.look_ahead_m);
-  const double free = std::min(free_seen, free_memory);
-  if (free >= config_.look_ahead_m) return result;
+  const Nearest of_seen = FirstMet(seen_guard_, per_metre, seen, config_.look_ahead_m);
+  const Nearest of_memory = FirstMet(memory_guard_, per_metre, remembered, config_.look_ahead_m);
+  const Nearest& nearest = of_memory.free_m < of_seen.free_m ? of_memory : of_seen;
+  if (nearest.free_m >= config_.look_ahead_m) return result;
 
-  const double allowed = std::min(config_.braking.SpeedWithin(free_seen - config_.gap_m),
-                                  config_.braking.SpeedWithin(free_memory - config_.memory_gap_m));
-  result.free_m = free;
+  const double allowed = std::min(config_.braking.SpeedWithin(of_seen.free_m - config_.gap_m),
+                                  config_.braking.SpeedWithin(of_memory.free_m - config_.memory_gap_m));
+  result.nearest = nearest;
   result.allowed = allowed;
   result.scale = std::min(1.0, allowed / speed);
   result.twist = {wanted.vx * result.scale, wanted.vy * result.scale, wanted.wz * result.scale};
@@ -123,7 +127,7 @@ double CollisionStop::Scale(const Twist2& wanted, std::span<const Eigen::Vector2
                            double gap_m) {
     const double kept_off = DistanceKeptOff(guard, margin_m, per_metre, points, braking);
     if (kept_off <= 0) return 0.0;
-    const double enough = braking + gap_m, free = FreeDistance(guard, per_metre, points, enough);
+    const double enough = braking + gap_m, free = FirstMet(guard, per_metre, points, enough).free_m;
     return std::min(kept_off >= braking ? speed : config_.braking.SpeedWithin(kept_off),
                     free >= enough ? speed : config_.braking.SpeedWithin(free - gap_m));
   };

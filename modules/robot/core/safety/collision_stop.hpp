@@ -29,13 +29,18 @@ struct CollisionStopConfig {
 /// Points beside the swept area do not matter, so both jambs of a door 6 cm beside the base do not stop it.
 class CollisionStop {
  public:
+  /// What the footprint would meet first.
+  struct Nearest {
+    double free_m = 0;               ///< driven until then by its fastest point
+    Eigen::Vector2d point = {0, 0};  ///< base frame
+  };
+
   /// The limited motion.
   struct Result {
     Twist2 twist;
-    double scale = 1;               ///< `twist` over the wanted motion
-    std::optional<double> allowed;  ///< fastest motion in this direction [m/s of the fastest corner]
-    /// Distance until the footprint would meet a point; none within look_ahead_m.
-    std::optional<double> free_m;
+    double scale = 1;                ///< `twist` over the wanted motion
+    std::optional<double> allowed;   ///< fastest motion in this direction [m/s of the fastest corner]
+    std::optional<Nearest> nearest;  ///< none within look_ahead_m
   };
 
   CollisionStop(const CollisionStopConfig& config, const Footprint& footprint);

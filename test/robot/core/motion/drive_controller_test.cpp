@@ -224,8 +224,8 @@ TEST(DriveController, StandsBeforeABoxAndSaysBlockedAndGoesOnWhenItIsGone) {
   rig.Run(8);
   EXPECT_EQ(rig.state().mode, DriveMode::kBlocked);
   EXPECT_TRUE(rig.state().slowed_by_sonar);
-  ASSERT_TRUE(rig.state().nearest_m);
-  EXPECT_LT(*rig.state().nearest_m, 0.15);
+  ASSERT_TRUE(rig.state().nearest);
+  EXPECT_LT(rig.state().nearest->free_m, 0.15);
   EXPECT_GT(rig.min_gap(), 0.02);
   rig.sonars().Clear();
   rig.sonars().Add(BoxSides(6.0, -2, 6.5, 2));

@@ -23,7 +23,7 @@ const CollisionStop kDut{{.margin_m = 0.02, .gap_m = 0.1, .braking = {0.8, 0.1}}
 TEST(CollisionStop, LeavesTheMotionAloneWhereNothingIs) {
   const auto result = kDut.Limit({0.5, 0.1, 0.2}, {});
   EXPECT_EQ(result.scale, 1);
-  EXPECT_FALSE(result.free_m);
+  EXPECT_FALSE(result.nearest);
 }
 
 TEST(CollisionStop, StandsAtTheGapBeforeAPointAhead) {
@@ -33,8 +33,18 @@ TEST(CollisionStop, StandsAtTheGapBeforeAPointAhead) {
 
 TEST(CollisionStop, ReportsTheFreeWay) {
   const auto result = kDut.Limit({0.1, 0, 0}, Points{{0.475 + 0.02 + 0.7, 0.3}});
-  ASSERT_TRUE(result.free_m);
-  EXPECT_NEAR(*result.free_m, 0.7, 2e-3);
+  ASSERT_TRUE(result.nearest);
+  EXPECT_NEAR(result.nearest->free_m, 0.7, 2e-3);
+}
+
+TEST(CollisionStop, NamesThePointThatItWouldMeetFirst) {
+  const Eigen::Vector2d seen{1.2, 0.3}, remembered{0.9, -0.2}, beside{0.6, 0.6};
+  const auto of_both = kDut.Limit({0.1, 0, 0}, Points{beside, seen}, Points{remembered});
+  ASSERT_TRUE(of_both.nearest);
+  EXPECT_EQ(of_both.nearest->point, remembered);
+  const auto of_seen = kDut.Limit({0.1, 0, 0}, Points{beside, seen}, Points{{2.0, 0}});
+  ASSERT_TRUE(of_seen.nearest);
+  EXPECT_EQ(of_seen.nearest->point, seen);
 }
 
 TEST(CollisionStop, TheSpeedItAllowsStopsInTheFreeWay) {
