@@ -3,11 +3,13 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "robot/core/sonar/wall_end.hpp"
 
 namespace priamos::robot {
 namespace {
 
-constexpr double kHalfBeam = Radians(7.5);
 /// Wheels slip for some decimetres in the same sense: over a few metres a walk of independent steps, which
 /// the noise of the odometry describes, would be longer.
 constexpr double kWalked = 0.8;
@@ -117,9 +119,9 @@ std::optional<SegmentLine> FitSegment(const std::vector<PlacedEcho>& echoes, dou
 WallSegment::WallSegment(const WallSegmentConfig& config, const OdometryNoise& noise,
                          std::vector<PlacedEcho> echoes, const SegmentLine& line)
     : config_(config), noise_(noise), echoes_(std::move(echoes)), line_(line) {
-  from_ = to_ = echoes_.front().Foot(line_.normal());
+  from_.heard = to_.heard = echoes_.front().Foot(line_.normal());
   for (const PlacedEcho& echo : echoes_) Reach(echo);
-  PutEndsOnLine();
+  FindEnds();
 }
 
 bool WallSegment::Takes(const PlacedEcho& echo) const {
@@ -127,8 +129,8 @@ bool WallSegment::Takes(const PlacedEcho& echo) const {
   if (!grows_ || off_axis > Radians(config_.range.most_bearing_deg)) return false;
   const Eigen::Vector2d at = echo.odom_from_sonar.translation() - line_.anchor;
   const double along_m = line_.along().dot(at);
-  const double low_m = line_.along().dot(from_ - line_.anchor),
-               high_m = line_.along().dot(to_ - line_.anchor);
+  const double low_m = line_.along().dot(from_.heard - line_.anchor),
+               high_m = line_.along().dot(to_.heard - line_.anchor);
   if (std::min(along_m, low_m) < std::max(along_m, high_m) - config_.most_m) return false;
   if (along_m < low_m - config_.reach_m || along_m > high_m + config_.reach_m) return false;
   const Eigen::Vector2d by_line(-along_m, 1);
@@ -151,26 +153,35 @@ bool WallSegment::Add(const std::vector<PlacedEcho>& echoes) {
   echoes_ = std::move(all);
   line_ = *line;
   for (const PlacedEcho& echo : echoes) Reach(echo);
-  PutEndsOnLine();
+  FindEnds();
   Thin();
   return true;
 }
 
-double WallSegment::end_sigma_m() const {
-  constexpr double kLeast_m = 0.03;
-  return kLeast_m + newest().range_m * std::tan(kHalfBeam) / std::sqrt(3);
-}
-
 void WallSegment::Reach(const PlacedEcho& echo) {
   const Eigen::Vector2d foot = echo.Foot(line_.normal()), along = line_.along();
-  if (along.dot(foot) < along.dot(from_)) from_ = foot;
-  if (along.dot(foot) > along.dot(to_)) to_ = foot;
+  if (along.dot(foot - from_.heard) < 0) from_.heard = foot, from_.grew = true;
+  if (along.dot(foot - to_.heard) > 0) to_.heard = foot, to_.grew = true;
 }
 
-void WallSegment::PutEndsOnLine() {
-  const Eigen::Vector2d normal = line_.normal();
-  for (Eigen::Vector2d* end : {&from_, &to_})
-    *end += (line_.distance_m - normal.dot(*end - line_.anchor)) * normal;
+/// What was known better before its echoes were thinned out stays.
+void WallSegment::FindEnd(End& end, const Eigen::Vector2d& outward) const {
+  std::vector<EchoBeside> beside;
+  beside.reserve(echoes_.size());
+  for (const PlacedEcho& echo : echoes_) {
+    const Eigen::Vector2d at = echo.odom_from_sonar.translation() - line_.anchor;
+    beside.push_back({outward.dot(at), line_.distance_m - line_.normal().dot(at), echo.range_m});
+  }
+  const WallEnd found = FindWallEnd(beside, config_.range);
+  const bool better = std::exchange(end.grew, false) || found.sigma_m <= end.sigma_m;
+  const double along_m = better ? found.along_m : outward.dot(end.at - line_.anchor);
+  if (better) end.sigma_m = found.sigma_m;
+  end.at = line_.anchor + line_.distance_m * line_.normal() + along_m * outward;
+}
+
+void WallSegment::FindEnds() {
+  FindEnd(from_, -line_.along());
+  FindEnd(to_, line_.along());
 }
 
 /// Every second one goes, but not the newest.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -72,24 +73,31 @@ class WallSegment {
 
   const SegmentLine& line() const { return line_; }
   /// Its ends in the frame of the odometry; whoever faces the wall has `from` to the right.
-  const Eigen::Vector2d& from() const { return from_; }
-  const Eigen::Vector2d& to() const { return to_; }
-  double length_m() const { return (to_ - from_).norm(); }
-  /// How far an end may lie from where it was heard: a beam hears an edge that it has passed. One sigma.
-  double end_sigma_m() const;
+  const Eigen::Vector2d& from() const { return from_.at; }
+  const Eigen::Vector2d& to() const { return to_.at; }
+  double length_m() const { return (to_.at - from_.at).norm(); }
+  /// How far an end may lie from there, the less sure of both. One sigma.
+  double end_sigma_m() const { return std::max(from_.sigma_m, to_.sigma_m); }
   bool grows() const { return grows_; }
   const PlacedEcho& newest() const { return echoes_.back(); }
 
  private:
+  struct End {
+    Eigen::Vector2d heard{0, 0};  ///< foot of the outermost echo
+    Eigen::Vector2d at{0, 0};
+    double sigma_m = 0;
+    bool grew = true;  ///< since it was found last
+  };
   void Reach(const PlacedEcho& echo);
-  void PutEndsOnLine();
+  void FindEnd(End& end, const Eigen::Vector2d& outward) const;
+  void FindEnds();
   void Thin();
 
   WallSegmentConfig config_;
   OdometryNoise noise_;
   std::vector<PlacedEcho> echoes_;  ///< in order of time
   SegmentLine line_;
-  Eigen::Vector2d from_, to_;
+  End from_, to_;
   bool grows_ = true;
 };
 
