@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace priamos::planner {
 namespace {
 
 using Eigen::Vector2d;
 
-/// Pieces of a line with a smaller gap are one wall.
-constexpr double kBridged_m = 0.3;
 /// A piece that is so many sigmas off its line is none of it.
 constexpr double kOffLine = 6;
 
@@ -135,8 +134,8 @@ bool FloorGraph::IsOnLine(const Told& told) const {
   return told.line >= 0 && graph_.DistanceOf(SightOf(told)) < kOffLine;
 }
 
-std::map<int, std::vector<FloorGraph::Span>> FloorGraph::Spans() const {
-  std::map<int, std::vector<Span>> spans;
+std::map<int, std::vector<WallSpan>> FloorGraph::Spans() const {
+  std::map<int, std::vector<WallSpan>> spans;
   for (const auto& [name, told] : told_) {
     if (!IsOnLine(told)) continue;
     const GraphLine& line = graph_.line(told.line);
@@ -144,20 +143,7 @@ std::map<int, std::vector<FloorGraph::Span>> FloorGraph::Spans() const {
     const double half_m = told.wall.length_m / 2;
     spans[told.line].push_back({middle_m - half_m, middle_m + half_m, told.wall});
   }
-  for (auto& [line, pieces] : spans) {
-    std::sort(pieces.begin(), pieces.end(), [](const Span& a, const Span& b) { return a.from_m < b.from_m; });
-    std::vector<Span> joined;
-    for (const Span& piece : pieces) {
-      if (joined.empty() || piece.from_m > joined.back().to_m + kBridged_m) {
-        joined.push_back(piece);
-        continue;
-      }
-      Span& last = joined.back();
-      last.to_m = std::max(last.to_m, piece.to_m);
-      if (piece.wall.seen_s > last.wall.seen_s) last.wall = piece.wall;
-    }
-    pieces = std::move(joined);
-  }
+  for (auto& [line, pieces] : spans) pieces = JoinedSpans(std::move(pieces));
   return spans;
 }
 
@@ -181,7 +167,7 @@ LearnedWalls FloorGraph::Walls() const {
   };
   for (const auto& [index, pieces] : Spans()) {
     const GraphLine& line = graph_.line(index);
-    for (const Span& piece : pieces) {
+    for (const WallSpan& piece : pieces) {
       const Vector2d middle = line.At((piece.from_m + piece.to_m) / 2);
       add(piece.wall, {middle.x(), middle.y(), line.yaw_rad}, piece.to_m - piece.from_m);
     }

@@ -9,6 +9,7 @@
 #include "common/archive.hpp"
 #include "common/learned/learned_walls.hpp"
 #include "planner/core/graph/pose_graph.hpp"
+#include "planner/core/graph/wall_spans.hpp"
 #include "planner/core/map/learned_map.hpp"
 
 namespace priamos::planner {
@@ -82,10 +83,6 @@ class FloorGraph {
     Pose2 key_from_middle;
     LearnedWall wall;
   };
-  struct Span {
-    double from_m = 0, to_m = 0;
-    LearnedWall wall;  ///< the newest that is part of it
-  };
   struct Candidate {
     int kept = 0, gone = 0;
     Eigen::Vector2d error{0, 0};
@@ -102,12 +99,12 @@ class FloorGraph {
   bool JoinTogether(const std::vector<Candidate>& found);
   bool Agree(const Candidate& a, const Candidate& b) const;
   std::vector<Candidate> Candidates() const;
-  static std::optional<double> Meet(const GraphLine& a, const std::vector<Span>& own, const GraphLine& b,
-                                    const std::vector<Span>& others);
+  static std::optional<double> Meet(const GraphLine& a, const std::vector<WallSpan>& own, const GraphLine& b,
+                                    const std::vector<WallSpan>& others);
   std::optional<Candidate> CandidateAt(int kept, int gone, double at_m) const;
   bool IsAmbiguous(const Candidate& candidate, const std::vector<Candidate>& all) const;
   bool Join(const std::vector<Candidate>& pairs);
-  std::map<int, std::vector<Span>> Spans() const;
+  std::map<int, std::vector<WallSpan>> Spans() const;
 
   FloorGraphConfig config_;
   PoseGraph graph_;

@@ -26,12 +26,12 @@ constexpr double kFour = 13.3;
 }  // namespace
 
 /// Where two walls are nearest along the first; nullopt: nowhere.
-std::optional<double> FloorGraph::Meet(const GraphLine& a, const std::vector<Span>& own, const GraphLine& b,
-                                       const std::vector<Span>& others) {
+std::optional<double> FloorGraph::Meet(const GraphLine& a, const std::vector<WallSpan>& own,
+                                       const GraphLine& b, const std::vector<WallSpan>& others) {
   double least_gap_m = kMostGap_m;
   std::optional<double> at_m;
-  for (const Span& piece : own)
-    for (const Span& other : others) {
+  for (const WallSpan& piece : own)
+    for (const WallSpan& other : others) {
       const double from_m = a.AlongTo(b.At(other.from_m)), to_m = a.AlongTo(b.At(other.to_m));
       const double begin_m = std::max(piece.from_m, from_m), end_m = std::min(piece.to_m, to_m);
       if (begin_m - end_m >= least_gap_m) continue;
