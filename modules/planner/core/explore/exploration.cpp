@@ -19,6 +19,8 @@ using Eigen::Vector2i;
 constexpr double kTrail_m = 0.15;
 /// A frontier is still at a place when one of its cells is so near.
 constexpr double kSamePlace_m = 0.5;
+/// A beam, the pose and the time of a report put what was heard so far off.
+constexpr double kHeard_m = 0.25;
 /// What is so near to a place that was given up is given up as well.
 constexpr double kGivenUp_m = 0.6;
 /// A way that is no longer than this times, and this more than, the one over what is free is worth it.
@@ -105,6 +107,15 @@ void Exploration::AddThing(const Rectangle& thing) {
   Forget();
 }
 
+bool Exploration::Knows(const Vector2d& heard) const {
+  const auto is_wall = [&](const LearnedWall& wall) {
+    return DistanceToSegment(wall.from(), wall.to(), heard) < kHeard_m;
+  };
+  const auto is_thing = [&](const Rectangle& thing) { return Distance(thing, heard) < kHeard_m; };
+  return std::any_of(evidence_.walls.walls.begin(), evidence_.walls.walls.end(), is_wall) ||
+         std::any_of(evidence_.things.begin(), evidence_.things.end(), is_thing);
+}
+
 void Exploration::GiveUp(const Vector2d& target, std::string reason, bool for_good) {
   given_up_.push_back({target, std::move(reason), Here(), for_good || again_});
 }
@@ -119,17 +130,34 @@ bool Exploration::TryAgain() {
   return true;
 }
 
+/// When the base was there for the first time: a place of the trail.
+std::size_t Exploration::FirstAt(const Vector2d& place) const {
+  const auto first = std::find_if(poses_.begin(), poses_.end(), [&](const Pose2& pose) {
+    return (pose.translation() - place).norm() < kTrail_m;
+  });
+  return static_cast<std::size_t>(first - poses_.begin());
+}
+
+std::vector<Pose2> Exploration::WayOn(double length_m) const {
+  std::vector<Pose2> way;
+  if (poses_.empty()) return way;
+  Vector2d last = poses_.back().translation();
+  double on_m = 0;
+  for (std::size_t at = FirstAt(last) + 1; at + 1 < poses_.size() && on_m < length_m; ++at) {
+    way.push_back(poses_[at]);
+    on_m += (way.back().translation() - last).norm();
+    last = way.back().translation();
+  }
+  return way;
+}
+
 std::vector<Pose2> Exploration::WayBack(double length_m) const {
   std::vector<Pose2> way;
   double back_m = 0;
   for (std::size_t at = poses_.size(); at > 0 && back_m < length_m;) {
     const Vector2d here = poses_[at - 1].translation();
-    // Where it was here for the first time: what it did in between is a loop.
-    const auto first = std::find_if(poses_.begin(), poses_.end(), [&](const Pose2& pose) {
-      return (pose.translation() - here).norm() < kTrail_m;
-    });
-    if (first == poses_.begin()) break;
-    at = static_cast<std::size_t>(first - poses_.begin());
+    at = FirstAt(here);  // what it did in between is a loop
+    if (at == 0) break;
     way.push_back(poses_[at - 1]);
     back_m += (way.back().translation() - here).norm();
   }
@@ -142,7 +170,9 @@ const ExploredGrid& Exploration::grid() {
 }
 
 const PossibleFloor& Exploration::possible() {
-  if (!possible_) possible_.emplace(grid(), evidence_.trail, clearance_m_, config_.sight_m);
+  if (possible_) return *possible_;
+  possible_.emplace(grid(), evidence_.trail, clearance_m_, config_.sight_m);
+  if (again_) possible_->MeasureRegions();
   return *possible_;
 }
 

@@ -75,6 +75,8 @@ class Exploration {
   const LearnedWalls& walls() const { return evidence_.walls; }
   /// Something that is no wall is here.
   void AddThing(const Rectangle& thing);
+  /// Whether a wall or a thing is known to stand there, as far as a place is known that was heard.
+  bool Knows(const Eigen::Vector2d& heard) const;
   /// What is around this place of a frontier is not tried, or, `for_good`, never again.
   void GiveUp(const Eigen::Vector2d& target, std::string reason, bool for_good = false);
 
@@ -82,10 +84,14 @@ class Exploration {
   /// and may have been a person. From then on only frontiers with much behind them count, for the way that
   /// leads to them, and each is tried once. False: there is nothing to forget.
   bool TryAgain();
+  bool again() const { return again_; }  ///< whether it was done
 
   /// The way back to where the base began, without the loops, as far as `length_m`: it was there with its
   /// whole body, at the headings that the poses have. Empty where it began.
   std::vector<Pose2> WayBack(double length_m) const;
+  /// The way on that the base took when it was here for the first time, as far as `length_m`: for a base that
+  /// is about to leave a room, the way back leads ahead. Empty where it had not been before.
+  std::vector<Pose2> WayOn(double length_m) const;
 
   /// The frontier that is next; nullopt: nothing is left that can be reached.
   std::optional<FrontierGoal> Choose(const Pose2& map_from_base);
@@ -120,6 +126,7 @@ class Exploration {
   double CostOf(const Frontier& frontier, const Eigen::Vector2i& cell, const GridWays& ways,
                 const Pose2& base) const;
   std::size_t Here() const;
+  std::size_t FirstAt(const Eigen::Vector2d& place) const;
   static std::size_t FirstOf(const std::vector<Candidate>& candidates, const GridWays& ways);
   const GivenUp* FindGivenUp(const Eigen::Vector2d& at) const;
   bool IsCrumb(const Frontier& frontier) const;

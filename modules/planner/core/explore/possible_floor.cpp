@@ -20,6 +20,8 @@ using Eigen::Vector2i;
 constexpr double kMargin_m = 0.05;
 /// From a cell to those that share a side with it.
 constexpr std::array<std::pair<int, int>, 4> kSides{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+/// A piece whose size is not known yet.
+constexpr double kNotMeasured = -1;
 /// Lines of sight end so far apart, and begin at places so far apart.
 constexpr double kSightRim_m = 0.08, kLooksApart_m = 0.3;
 
@@ -85,7 +87,6 @@ PossibleFloor::PossibleFloor(const ExploredGrid& grid, const std::vector<Vector2
     for (int x = 0; x < grid.nx(); ++x)
       if (grid.At(x, y) != Cell::kUnknown) has_[grid.IndexOf(x, y)] = false;
   TakeOutOfSight(trail, sight_m);
-  MeasureRegions();
 }
 
 /// Takes what is in sight of the trail.
@@ -112,12 +113,12 @@ void PossibleFloor::TakeLine(const Vector2d& from, const Vector2d& to) {
   }
 }
 
-/// Sizes of the pieces that hang together by the sides of cells.
+/// They hang together by the sides of cells.
 void PossibleFloor::MeasureRegions() {
-  region_m2_.assign(has_.size(), 0);
+  region_m2_.assign(has_.size(), kNotMeasured);
   for (int y = 0; y < grid_->ny(); ++y)
     for (int x = 0; x < grid_->nx(); ++x) {
-      if (!Has({x, y}) || region_m2_[grid_->IndexOf(x, y)] > 0) continue;
+      if (!Has({x, y}) || region_m2_[grid_->IndexOf(x, y)] != kNotMeasured) continue;
       const std::vector<Vector2i> region = RegionOf({x, y});
       const double m2 = ExploredGrid::kStep_m * ExploredGrid::kStep_m * static_cast<double>(region.size());
       for (const Vector2i& at : region) region_m2_[grid_->IndexOf(at.x(), at.y())] = m2;
@@ -125,11 +126,10 @@ void PossibleFloor::MeasureRegions() {
 }
 
 std::vector<Vector2i> PossibleFloor::RegionOf(const Vector2i& from) {
-  constexpr double kFound = -1;
   std::vector<Vector2i> region;
   const auto take = [&](const Vector2i& at) {
-    if (!Has(at) || region_m2_[grid_->IndexOf(at.x(), at.y())] != 0) return;
-    region_m2_[grid_->IndexOf(at.x(), at.y())] = kFound;
+    if (!Has(at) || region_m2_[grid_->IndexOf(at.x(), at.y())] != kNotMeasured) return;
+    region_m2_[grid_->IndexOf(at.x(), at.y())] = 0;
     region.push_back(at);
   };
   take(from);

@@ -25,20 +25,21 @@ class PossibleFloor {
   /// How much of it would be in sight from a cell [m2].
   double Behind_m2(const Eigen::Vector2i& cell) const;
 
-  /// The largest piece of it, in all, of which something would be in sight from a cell [m2]: a room that was
-  /// never entered is one, the corner of a room is a small one.
+  /// Measures the pieces that hang together, for Region_m2().
+  void MeasureRegions();
+  /// The largest piece of which something would be in sight from a cell [m2]: a room that was never entered is
+  /// one, the corner of a room is a small one.
   double Region_m2(const Eigen::Vector2i& cell) const;
 
  private:
   void TakeOutOfSight(const std::vector<Eigen::Vector2d>& trail, double sight_m);
   void TakeLine(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
-  void MeasureRegions();
   std::vector<Eigen::Vector2i> RegionOf(const Eigen::Vector2i& from);
 
   const ExploredGrid* grid_;
   double sight_m_;
   std::vector<bool> has_;
-  std::vector<double> region_m2_;  ///< of the piece that each cell is in; 0: none
+  std::vector<double> region_m2_;  ///< of the piece that each cell is in; empty: not measured
 };
 
 }  // namespace priamos::planner

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "planner/core/explore/passages.hpp"
@@ -18,10 +19,10 @@ constexpr double kRetreat_m = 0.5;
 /// A base that is stopped so near to where it was stopped before is shut in, and goes back farther; in the
 /// end also one that stands so near to it.
 constexpr double kSamePlace_m = 0.3, kBack_m = 1.5, kShutIn_m = 1.0;
-/// A base that is stopped so near to its border was stopped by what is there; one that is stopped more often
-/// at one place gives up borders that are farther away, too.
+/// A base that is stopped so near to its border was stopped by what is there: so often again at one place
+/// before the border is given up; one that is farther away only after more stops.
 constexpr double kAtTarget_m = 2.5;
-constexpr int kMostStopsHere = 3;
+constexpr int kMostStopsAtTarget = 1, kMostStopsHere = 3;
 /// A round that saw no more than so much more has seen nothing.
 constexpr double kMore_m2 = 1.0;
 /// Frontiers that the outcome names; a result holds no more words.
@@ -79,6 +80,7 @@ std::optional<Refusal> ExploreMission::Start(const MissionOrder& /*order*/) {
   most_seen_m2_ = 0;
   backing_ = false;
   stopped_at_.reset();
+  stopped_by_.reset();
   stops_here_ = 0;
   undecided_ = false;
   return std::nullopt;
@@ -106,7 +108,9 @@ void ExploreMission::Step(MissionControl& control) {
     idles_.Reset();
     return OnStop(control, {Stop::Cause::kBlocked, "the robot came no further"});
   }
-  if (goal_) Reconsider(control);
+  if (!goal_) return;
+  NoteAhead(control);
+  Reconsider(control);
 }
 
 /// What the robot tells is in its own frame; the map is another one, in which everything else is done.
@@ -148,6 +152,23 @@ void ExploreMission::Learn(const Pose2& base) {
   planner_.Learn(SureParts(exploration_.walls()), base);
 }
 
+void ExploreMission::NoteThing(const MissionControl& control) {
+  auto thing = ThingAhead(control, footprint_, config_.thing_m);
+  if (!thing) return;
+  thing->map_from_centre = graph_.map_from_robot() * thing->map_from_centre;
+  exploration_.AddThing(*thing);
+}
+
+/// Who hears something ahead does not drive up to it: there it could not even turn.
+void ExploreMission::NoteAhead(const MissionControl& control) {
+  const auto& nearest = control.heard().drive->nearest;
+  if (!nearest || nearest->free_m > config_.meets_m || exploration_.Knows(BaseOf(control) * nearest->at))
+    return;
+  NoteThing(control);
+  planner_.Take(exploration_.ObstaclesFor(*goal_), BaseOf(control));
+  considered_.reset();
+}
+
 /// While the base drives: what it was to see may be seen by now, a wall may have turned up on its way, or the
 /// map may have moved.
 void ExploreMission::Reconsider(MissionControl& control) {
@@ -176,31 +197,31 @@ void ExploreMission::Arrive(MissionControl& control) {
 }
 
 /// What stopped the base is closed from now on; a frontier that is no longer one by that is done with. A base
-/// that is stopped twice at a place stands too near to something, and is not shut in by more things.
+/// that is stopped several times at a place stands too near to something, and goes back farther.
 void ExploreMission::OnStop(MissionControl& control, const Stop& stop) {
   Note(control);
   if (outcome_) return control.Enter(Phase::kDone, *outcome_);
   placing_ = Placing::kNo;
   if (stop.cause != Stop::Cause::kBlocked || (!goal_ && !backing_))
     return control.Fail(stop.reason + "; next: look what it is, and order it again");
-  const Eigen::Vector2d here = BaseOf(control).translation();
-  const bool again = stopped_at_ && (here - *stopped_at_).norm() < kSamePlace_m;
-  stops_here_ = again ? stops_here_ + 1 : 0;
-  stopped_at_ = here;
+  NoteStop(control);
   if (backing_) return Next(control);
-  if (again) {
-    // What is in the way here says nothing of a border that is far away.
-    if ((goal_->target - here).norm() < kAtTarget_m || stops_here_ > kMostStopsHere)
-      exploration_.GiveUp(goal_->target, stop.reason);
-    if (!GoBack(control, kBack_m * stops_here_)) Next(control);
-    return;
-  }
-  if (auto thing = ThingAhead(control, footprint_, config_.thing_m)) {
-    thing->map_from_centre = graph_.map_from_robot() * thing->map_from_centre;
-    exploration_.AddThing(*thing);
-  }
-  if (++missed_ > config_.retries) exploration_.GiveUp(goal_->target, stop.reason);
-  if (!GoBack(control, kRetreat_m)) Next(control);
+  NoteThing(control);
+  // What is in the way here says nothing of a border that is far away.
+  const bool at_target = (goal_->target - *stopped_at_).norm() < kAtTarget_m;
+  const int most = at_target ? kMostStopsAtTarget : kMostStopsHere;
+  if (++missed_ > config_.retries || stops_here_ > most || (at_target && exploration_.again()))
+    exploration_.GiveUp(goal_->target, stop.reason);
+  if (!GoBack(control, kRetreat_m * (1 + stops_here_))) Next(control);
+}
+
+void ExploreMission::NoteStop(const MissionControl& control) {
+  const Pose2 base = BaseOf(control);
+  const bool again = stopped_at_ && (base.translation() - *stopped_at_).norm() < kSamePlace_m;
+  stops_here_ = again ? stops_here_ + 1 : 0;
+  stopped_at_ = base.translation();
+  stopped_by_.reset();
+  if (const auto& nearest = control.heard().drive->nearest) stopped_by_ = base * nearest->at;
 }
 
 void ExploreMission::Next(MissionControl& control) {
@@ -235,10 +256,17 @@ bool ExploreMission::BeginRound() {
   return ++rounds_ <= config_.rounds && exploration_.TryAgain();
 }
 
-/// A bit of the way that it came, to where there is room around it: it was there with its whole body. False
-/// where it began.
+/// A bit of its own way, to where there is room around it, and away from what stopped it: it was there with
+/// its whole body. False where it began.
 bool ExploreMission::GoBack(MissionControl& control, double length_m) {
+  const Eigen::Vector2d here = BaseOf(control).translation();
+  const Eigen::Vector2d towards = stopped_by_.value_or(here) - here;
+  const auto leads = [&](const std::vector<Pose2>& way) {
+    return way.empty() ? std::numeric_limits<double>::infinity()
+                       : towards.dot(way.back().translation() - here);
+  };
   PlannedPath way{.points = exploration_.WayBack(length_m)};
+  if (auto on = exploration_.WayOn(length_m); leads(on) < leads(way.points)) way.points = std::move(on);
   if (way.points.empty()) return false;
   goal_.reset();
   backing_ = true;

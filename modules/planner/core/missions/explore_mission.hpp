@@ -41,6 +41,9 @@ class ExploreMission : public Mission {
   Pose2 BaseOf(const MissionControl& control) const;
   void Order(MissionControl& control, PlannedPath path);
   void Learn(const Pose2& base);
+  void NoteStop(const MissionControl& control);
+  void NoteThing(const MissionControl& control);
+  void NoteAhead(const MissionControl& control);
   void Reconsider(MissionControl& control);
   void Arrive(MissionControl& control);
   void Next(MissionControl& control);
@@ -69,6 +72,7 @@ class ExploreMission : public Mission {
   double most_seen_m2_ = 0;                    ///< at the beginning of a round
   bool backing_ = false;                       ///< on the way back, to no frontier
   std::optional<Eigen::Vector2d> stopped_at_;  ///< where something stopped the base last
+  std::optional<Eigen::Vector2d> stopped_by_;  ///< and what that was
   int stops_here_ = 0;                         ///< in a row at one place, after the first
   bool undecided_ = false;                     ///< no way was found yet
   std::optional<Time> considered_;             ///< whether goal_ is still a frontier

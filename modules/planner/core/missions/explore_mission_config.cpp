@@ -10,6 +10,7 @@ void ExploreMissionConfig::Describe(Archive& a) {
            {"s", 1, 600, "a robot that holds on its way for so long fails the mission"});
   a.Number("idle_s", idle_s, {"s", 1, 600, "a robot that comes no further for so long is blocked"});
   a.Number("thing_m", thing_m, {"m", 0.1, 3, "size that something in the way is taken to have"});
+  a.Number("meets_m", meets_m, {"m", 0, 3, "what is so near ahead is closed before it stops the base"});
   a.Integer("rounds", rounds, {"-", 0, 20, "rounds over what was left that see nothing more"});
   a.Integer("retries", retries, {"-", 0, 20, "paths that end elsewhere before a frontier is given up"});
   limits.Describe(a);

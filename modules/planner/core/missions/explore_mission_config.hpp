@@ -16,6 +16,7 @@ struct ExploreMissionConfig {
   double stands_s = 30;       ///< a robot that holds on its way for so long has the mission fail
   double idle_s = 12;         ///< a robot that comes no further for so long, held by nothing, is blocked
   double thing_m = 0.8;       ///< size of what is in the way, of which one side is known only
+  double meets_m = 0.6;       ///< what is so near ahead is put on the map before it stops the base
   int retries = 3;            ///< paths that end elsewhere before a frontier is given up
   int rounds = 2;             ///< so often what was left is tried again in the end without more being seen
   /// It goes back before the robot forgets what it stopped for: near things are remembered for 5 s.

@@ -159,6 +159,24 @@ TEST(ExplorationTest, TheWayBackLeavesLoopsOutAndLeadsToTheBeginning) {
   EXPECT_NEAR(dut.WayBack(1).back().x, 1, 0.2);
 }
 
+TEST(ExplorationTest, TheWayOnIsTheOneThatItTookWhenItWasHereFirst) {
+  Exploration dut({}, kWidth_m, {});
+  EXPECT_THAT(dut.WayOn(1), IsEmpty());
+  for (double x = 0; x <= 3; x += 0.2) dut.NoteAt({x, 0, 0.5});
+  EXPECT_THAT(dut.WayOn(1), IsEmpty()) << "it was never farther";
+  for (double x = 2.8; x >= 1.9; x -= 0.2) dut.NoteAt({x, 0, 0.5});
+  EXPECT_NEAR(dut.WayOn(0.5).back().x, 2.5, 0.25);
+  EXPECT_EQ(dut.WayOn(0.5).back().yaw, 0.5);
+}
+
+TEST(ExplorationTest, WhatWasHeardIsKnownWhereAThingOrAWallStands) {
+  Exploration dut({}, kWidth_m, {});
+  EXPECT_FALSE(dut.Knows({2, 1}));
+  dut.AddThing({{2, 1.3, 0}, {0.2, 0.2}});
+  EXPECT_TRUE(dut.Knows({2, 1}));
+  EXPECT_FALSE(dut.Knows({2, 0.5}));
+}
+
 TEST(ExplorationTest, WhatIsTooFarIsLeft) {
   Exploration dut({.farthest_m = 5}, kWidth_m, {});
   for (double x = 0; x <= 6; x += 0.2) dut.NoteAt({x, 0, 0});

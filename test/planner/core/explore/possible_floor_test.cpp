@@ -66,7 +66,8 @@ TEST(PossibleFloorTest, ARoomBehindAnOpeningIsALargeRegionAndACornerASmallOne) {
   evidence.walls.walls[0] = WallAt(-1.4, -2, 0, 1.2);
   evidence.walls.walls.push_back(WallAt(1.4, -2, 0, 1.2));
   const ExploredGrid grid({.near_m = 1.6}, evidence);
-  const PossibleFloor floor(grid, evidence.trail, kClearance_m, 2);
+  PossibleFloor floor(grid, evidence.trail, kClearance_m, 2);
+  floor.MeasureRegions();
   const Eigen::Vector2i opening = grid.CellOf({0, -1.5}), corner = grid.CellOf({1.1, 1.1});
   EXPECT_GT(floor.Region_m2(opening), 5);
   EXPECT_GT(floor.Region_m2(opening), floor.Behind_m2(opening)) << "not all of it is in sight";
