@@ -239,10 +239,17 @@ void ExploreMission::Next(MissionControl& control) {
     if (!frontier) continue;
     auto path = WayTo(base, *frontier);
     if (path) return DriveTo(control, *frontier, std::move(*path));
+    if (i == 0 && IsShutIn(base) && GoBack(control, kBack_m)) return;
     exploration_.GiveUp(frontier->target, path.reason());
   }
   undecided_ = true;  // the rest is looked at in the next time step
   if (!control.path_sent() || !control.path().points.empty()) control.OrderPath({}, 0);
+}
+
+/// Whether no way leads to where it was a while ago: then that none leads to a border says nothing of the border.
+bool ExploreMission::IsShutIn(const Pose2& base) const {
+  const auto back = exploration_.WayBack(kBack_m);
+  return !back.empty() && !planner_.FindPath(base, {back.back(), false});
 }
 
 /// What was left is tried again. It ends: what can be seen is limited, and so are the rounds that see no

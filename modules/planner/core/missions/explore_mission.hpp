@@ -47,6 +47,7 @@ class ExploreMission : public Mission {
   void Reconsider(MissionControl& control);
   void Arrive(MissionControl& control);
   void Next(MissionControl& control);
+  bool IsShutIn(const Pose2& base) const;
   bool BeginRound();
   bool GoBack(MissionControl& control, double length_m);
   Outcome<PlannedPath> WayTo(const Pose2& base, const FrontierGoal& frontier);
