@@ -74,6 +74,7 @@ bool Exploration::NoteAt(const Pose2& map_from_base) {
   if (!evidence_.trail.empty() && (at - evidence_.trail.back()).norm() < kTrail_m) return false;
   evidence_.trail.push_back(at);
   poses_.push_back(map_from_base);
+  DropDrivenOver(at);
   Forget();
   return true;
 }
@@ -101,10 +102,31 @@ void Exploration::Learn(const LearnedWalls& walls) {
   Forget();
 }
 
-void Exploration::AddThing(const Rectangle& thing) {
+bool Exploration::AddThing(Rectangle thing) {
+  constexpr int kHalvings = 3;
+  for (int i = 0; i < kHalvings && ClosesTrail(thing); ++i) thing.half_m /= 2;
+  if (ClosesTrail(thing)) return false;
   evidence_.things.push_back(thing);
   things_from_.push_back(Here());
   Forget();
+  return true;
+}
+
+/// Whether the base could no longer drive where it was.
+bool Exploration::ClosesTrail(const Rectangle& thing) const {
+  const double needed_m = clearance_m_ + 2 * kRaster_m;
+  return std::any_of(evidence_.trail.begin(), evidence_.trail.end(),
+                     [&](const Vector2d& at) { return Distance(thing, at) < needed_m; });
+}
+
+/// A thing that reached into the body of the base is none.
+void Exploration::DropDrivenOver(const Vector2d& at) {
+  for (std::size_t i = things_from_.size(); i-- > 0;) {
+    const auto thing = evidence_.things.begin() + std::ptrdiff_t(known_.size() + i);
+    if (Distance(*thing, at) > clearance_m_ - kRaster_m) continue;
+    evidence_.things.erase(thing);
+    things_from_.erase(things_from_.begin() + std::ptrdiff_t(i));
+  }
 }
 
 bool Exploration::Knows(const Vector2d& heard) const {

@@ -73,8 +73,9 @@ class Exploration {
   void Learn(const LearnedWalls& walls);
   /// What counts of them.
   const LearnedWalls& walls() const { return evidence_.walls; }
-  /// Something that is no wall is here.
-  void AddThing(const Rectangle& thing);
+  /// Something that is no wall is here, of which one side is known only: it is made smaller as far as it would
+  /// close a way that the base has driven. Returns whether anything is left of it.
+  bool AddThing(Rectangle thing);
   /// Whether a wall or a thing is known to stand there, as far as a place is known that was heard.
   bool Knows(const Eigen::Vector2d& heard) const;
   /// What is around this place of a frontier is not tried, or, `for_good`, never again.
@@ -125,6 +126,8 @@ class Exploration {
   std::optional<Candidate> Best(const Frontier& frontier, const GridWays& ways, const Pose2& base) const;
   double CostOf(const Frontier& frontier, const Eigen::Vector2i& cell, const GridWays& ways,
                 const Pose2& base) const;
+  bool ClosesTrail(const Rectangle& thing) const;
+  void DropDrivenOver(const Eigen::Vector2d& at);
   std::size_t Here() const;
   std::size_t FirstAt(const Eigen::Vector2d& place) const;
   static std::size_t FirstOf(const std::vector<Candidate>& candidates, const GridWays& ways);

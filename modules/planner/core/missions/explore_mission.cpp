@@ -152,11 +152,12 @@ void ExploreMission::Learn(const Pose2& base) {
   planner_.Learn(SureParts(exploration_.walls()), base);
 }
 
-void ExploreMission::NoteThing(const MissionControl& control) {
+/// Returns whether there is one more on the map.
+bool ExploreMission::NoteThing(const MissionControl& control) {
   auto thing = ThingAhead(control, footprint_, config_.thing_m);
-  if (!thing) return;
+  if (!thing) return false;
   thing->map_from_centre = graph_.map_from_robot() * thing->map_from_centre;
-  exploration_.AddThing(*thing);
+  return exploration_.AddThing(*thing);
 }
 
 /// Who hears something ahead does not drive up to it: there it could not even turn.
@@ -164,7 +165,7 @@ void ExploreMission::NoteAhead(const MissionControl& control) {
   const auto& nearest = control.heard().drive->nearest;
   if (!nearest || nearest->free_m > config_.meets_m || exploration_.Knows(BaseOf(control) * nearest->at))
     return;
-  NoteThing(control);
+  if (!NoteThing(control)) return;
   planner_.Take(exploration_.ObstaclesFor(*goal_), BaseOf(control));
   considered_.reset();
 }

@@ -42,7 +42,7 @@ class ExploreMission : public Mission {
   void Order(MissionControl& control, PlannedPath path);
   void Learn(const Pose2& base);
   void NoteStop(const MissionControl& control);
-  void NoteThing(const MissionControl& control);
+  bool NoteThing(const MissionControl& control);
   void NoteAhead(const MissionControl& control);
   void Reconsider(MissionControl& control);
   void Arrive(MissionControl& control);

@@ -169,6 +169,19 @@ TEST(ExplorationTest, TheWayOnIsTheOneThatItTookWhenItWasHereFirst) {
   EXPECT_EQ(dut.WayOn(0.5).back().yaw, 0.5);
 }
 
+TEST(ExplorationTest, AThingDoesNotCloseWhereTheBaseWasAndIsNoneWhereItDrives) {
+  Exploration dut({}, kWidth_m, {});
+  for (double x = 0; x <= 3; x += 0.2) dut.NoteAt({x, 0, 0});
+  EXPECT_FALSE(dut.AddThing({{1, 0.3, 0}, {0.4, 0.4}}));
+  EXPECT_FALSE(dut.Knows({1, 0.3}));
+  EXPECT_TRUE(dut.AddThing({{1, 0.9, 0}, {0.4, 0.4}})) << "the jamb of an opening that it passed";
+  EXPECT_TRUE(dut.Knows({1, 0.9}));
+  EXPECT_FALSE(dut.Knows({1, 0.4})) << "it is smaller";
+  EXPECT_TRUE(dut.AddThing({{4.4, 0, 0}, {0.4, 0.4}}));
+  dut.NoteAt({3.8, 0, 0});
+  EXPECT_FALSE(dut.Knows({4.2, 0}));
+}
+
 TEST(ExplorationTest, WhatWasHeardIsKnownWhereAThingOrAWallStands) {
   Exploration dut({}, kWidth_m, {});
   EXPECT_FALSE(dut.Knows({2, 1}));
