@@ -73,8 +73,8 @@ class Exploration {
   void Learn(const LearnedWalls& walls);
   /// What counts of them.
   const LearnedWalls& walls() const { return evidence_.walls; }
-  /// Something that is no wall is here, of which one side is known only: it is made smaller as far as it would
-  /// close a way that the base has driven. Returns whether anything is left of it.
+  /// Something that is no wall is here, of which one side is known only: it is made smaller as far as it
+  /// would close a way that the base has driven. Returns whether anything is left of it.
   bool AddThing(Rectangle thing);
   /// Whether a wall or a thing is known to stand there, as far as a place is known that was heard.
   bool Knows(const Eigen::Vector2d& heard) const;

@@ -27,8 +27,8 @@ class PossibleFloor {
 
   /// Measures the pieces that hang together, for Region_m2().
   void MeasureRegions();
-  /// The largest piece of which something would be in sight from a cell [m2]: a room that was never entered is
-  /// one, the corner of a room is a small one.
+  /// The largest piece of which something would be in sight from a cell [m2]: a room that was never entered
+  /// is one, the corner of a room is a small one.
   double Region_m2(const Eigen::Vector2i& cell) const;
 
  private:

@@ -247,7 +247,8 @@ void ExploreMission::Next(MissionControl& control) {
   if (!control.path_sent() || !control.path().points.empty()) control.OrderPath({}, 0);
 }
 
-/// Whether no way leads to where it was a while ago: then that none leads to a border says nothing of the border.
+/// Whether no way leads to where it was a while ago: then that none leads to a border says nothing of the
+/// border.
 bool ExploreMission::IsShutIn(const Pose2& base) const {
   const auto back = exploration_.WayBack(kBack_m);
   return !back.empty() && !planner_.FindPath(base, {back.back(), false});
