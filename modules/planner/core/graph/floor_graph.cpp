@@ -143,7 +143,7 @@ std::map<int, std::vector<WallSpan>> FloorGraph::Spans() const {
     const double half_m = told.wall.length_m / 2;
     spans[told.line].push_back({middle_m - half_m, middle_m + half_m, told.wall});
   }
-  for (auto& [line, pieces] : spans) pieces = JoinedSpans(std::move(pieces));
+  for (auto& [line, pieces] : spans) pieces = JoinedSpans(pieces);
   return spans;
 }
 

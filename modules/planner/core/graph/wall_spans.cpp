@@ -26,10 +26,10 @@ bool IsOneOf(const WallSpan& piece, const Group& group) {
   return std::any_of(group.begin(), group.end(), [&](const WallSpan& other) { return AreOne(piece, other); });
 }
 
-std::vector<Group> Grouped(std::vector<WallSpan> pieces) {
+std::vector<Group> Grouped(const std::vector<WallSpan>& pieces) {
   std::vector<Group> groups;
-  for (WallSpan& piece : pieces) {
-    Group own{std::move(piece)};
+  for (const WallSpan& piece : pieces) {
+    Group own{piece};
     const auto others = std::stable_partition(
         groups.begin(), groups.end(), [&](const Group& group) { return !IsOneOf(own.front(), group); });
     for (auto group = others; group != groups.end(); ++group)
@@ -59,9 +59,9 @@ WallSpan SpanOf(const Group& group) {
 
 }  // namespace
 
-std::vector<WallSpan> JoinedSpans(std::vector<WallSpan> pieces) {
+std::vector<WallSpan> JoinedSpans(const std::vector<WallSpan>& pieces) {
   std::vector<WallSpan> spans;
-  for (const Group& group : Grouped(std::move(pieces))) spans.push_back(SpanOf(group));
+  for (const Group& group : Grouped(pieces)) spans.push_back(SpanOf(group));
   std::sort(spans.begin(), spans.end(), [](const auto& a, const auto& b) { return a.from_m < b.from_m; });
   return spans;
 }

@@ -17,6 +17,6 @@ struct WallSpan {
 /// those that were heard at different times are off along the line by what the reckoning lost in between, and
 /// have to overlap. For the same reason the end that was heard last counts: the union of what was heard at
 /// several times would close every opening beside it.
-std::vector<WallSpan> JoinedSpans(std::vector<WallSpan> pieces);
+std::vector<WallSpan> JoinedSpans(const std::vector<WallSpan>& pieces);
 
 }  // namespace priamos::planner
