@@ -43,6 +43,11 @@ SignalWatch::~SignalWatch() {
   close(fd_);
 }
 
+bool SignalWatch::Came(int within_ms) const {
+  pollfd signal{fd_, POLLIN, 0};
+  return poll(&signal, 1, within_ms) > 0;
+}
+
 int RunRealTime(AppHost& host, LcmBus& bus, const Clock& clock, const SignalWatch& signals,
                 const BesideTheApp& beside) {
   ServiceNotifier notifier;

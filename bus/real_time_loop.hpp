@@ -24,6 +24,8 @@ class SignalWatch {
 
   /// File descriptor that becomes readable when a signal came.
   int fd() const { return fd_; }
+  /// Whether one came, or comes within that time.
+  bool Came(int within_ms = 0) const;
 
  private:
   int fd_;

@@ -1,7 +1,6 @@
 #include "console/played_log.hpp"
 
 #include <fmt/format.h>
-#include <poll.h>
 
 #include <filesystem>
 #include <limits>
@@ -39,8 +38,7 @@ int ShowPlayedLog(const bus::PlayedLog& log) {
                         ServerOptionsOf(config, in_folder));
   const std::string status = fmt::format("the log on {} is shown at {}", log.bus.url(), station.address());
   log.report(bus::Level::kInfo, status);
-  pollfd signal{log.signals.fd(), POLLIN, 0};
-  while (poll(&signal, 1, kPeriod_ms) == 0) {
+  while (!log.signals.Came(kPeriod_ms)) {
     station.Tick(clock.Now());
     notifier.Beat(clock.Now(), status);
   }

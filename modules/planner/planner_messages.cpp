@@ -99,6 +99,11 @@ landmark_edge_t ToMessage(const LandmarkEdge& edge) {
   return message;
 }
 
+std::optional<ThingNear> NearestOf(const drive_status_t& message) {
+  if (!(message.nearest_m >= 0)) return std::nullopt;
+  return ThingNear{message.nearest_m, {message.nearest_x_m, message.nearest_y_m}};
+}
+
 }  // namespace
 
 AgendaOrder OrderIn(const mission_command_t& message) {
@@ -125,11 +130,6 @@ RobotPose FromMessage(const pose_t& message) {
           {message.x_m, message.y_m, message.yaw_rad},
           {message.vx_m_s, message.vy_m_s, message.wz_rad_s},
           CovarianceIn(message)};
-}
-
-std::optional<ThingNear> NearestOf(const drive_status_t& message) {
-  if (!(message.nearest_m >= 0)) return std::nullopt;
-  return ThingNear{message.nearest_m, {message.nearest_x_m, message.nearest_y_m}};
 }
 
 /// A robot that has touched something has dropped its path; one that somebody walked into keeps it.

@@ -189,9 +189,10 @@ drive_status_t ToMessage(const DriveState& state, double speed_m_s, Time now) {
   message.remaining_m = state.remaining_m;
   message.cross_track_m = state.cross_track_m;
   message.speed_m_s = speed_m_s;
-  message.nearest_m = state.nearest ? state.nearest->free_m : -1;
-  if (state.nearest) message.nearest_x_m = state.nearest->point.x();
-  if (state.nearest) message.nearest_y_m = state.nearest->point.y();
+  const auto nearest = state.nearest.value_or(CollisionStop::Nearest{.free_m = -1});
+  message.nearest_m = nearest.free_m;
+  message.nearest_x_m = nearest.point.x();
+  message.nearest_y_m = nearest.point.y();
   message.allowed = state.allowed;
   message.driver = DriverCode(state.holder.driver);
   message.session = static_cast<std::int16_t>(state.holder.session);

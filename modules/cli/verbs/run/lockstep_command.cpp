@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <poll.h>
 #include <unistd.h>
 
 #include <CLI/App.hpp>
@@ -38,15 +37,10 @@ std::ostream& People(const LockstepOptions& options) {
   return options.json && options.json_file.empty() ? std::cerr : std::cout;
 }
 
-bool HasCome(const bus::SignalWatch& signals) {
-  pollfd come{signals.fd(), POLLIN, 0};
-  return poll(&come, 1, 0) > 0;
-}
-
 LockstepResult RunOne(const bus::Schema& schema, const LockstepOptions& options, std::uint64_t seed,
                       const bus::SignalWatch& signals) {
   LockstepRequest request = options.request;
-  request.interrupted = [&signals] { return HasCome(signals); };
+  request.interrupted = [&signals] { return signals.Came(); };
   request.deployment = FolderOfDeployment(options.deployment);
   request.seed = seed;
   if (!options.log_root.empty())

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <poll.h>
 
 #include <CLI/App.hpp>
 #include <filesystem>
@@ -79,8 +78,7 @@ int Show(const ShowOptions& options) {
     std::cout << JsonLine({{"address", station.address()}, {"events", events}}) << std::endl;
   else
     std::cout << fmt::format("the log is shown at {} (Ctrl-C ends it)", station.address()) << std::endl;
-  pollfd signal{signals.fd(), POLLIN, 0};
-  while (poll(&signal, 1, kPeriod_ms) == 0) station.Tick(clock.Now());
+  while (!signals.Came(kPeriod_ms)) station.Tick(clock.Now());
   return 0;
 }
 
