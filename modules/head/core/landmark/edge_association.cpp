@@ -15,7 +15,7 @@ constexpr int kSides = 4;                  ///< values of LandmarkEdge::side
 constexpr double kFullLength_px = 40;      ///< shorter predictions count less
 constexpr double kMinDensity = 0.01;       ///< similar edges per pixel: even a bare wall may hide one
 constexpr double kFreeOvershoot_px = 6;    ///< ends are not found better than that
-constexpr double kOvershootPenalty = 0.2;  ///< log odds lost per pixel beyond
+constexpr double kOvershootPenalty = 0.5;  ///< log odds lost per pixel beyond
 constexpr double kNearlyWhole = 0.6;       ///< covered share that counts as a whole edge
 
 /// A model edge in one image, its candidates and its match.
@@ -203,6 +203,16 @@ void Association::Withdraw(const LandmarkModel& model, int edge, int camera) {
     if (gone) log_odds -= c.log_odds;
     return gone;
   });
+}
+
+void Association::SetAside(int edge, int camera) {
+  for (EdgeMatch& m : matches)
+    if (m.edge == edge && (camera < 0 || m.camera == camera)) m.is_measured = false;
+}
+
+int Association::Measuring() const {
+  return static_cast<int>(
+      std::count_if(matches.begin(), matches.end(), [](const EdgeMatch& m) { return m.is_measured; }));
 }
 
 }  // namespace priamos::head

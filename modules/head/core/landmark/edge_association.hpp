@@ -31,6 +31,10 @@ struct Association {
 
   /// Takes the match of one model edge in one image (-1: in all) back: what was found is something else.
   void Withdraw(const LandmarkModel& model, int edge, int camera);
+  /// Keeps the match as evidence, and does not measure by it.
+  void SetAside(int edge, int camera);
+  /// Matches that are measured by.
+  int Measuring() const;
 };
 
 /// Compares the model's edges at `base_from_landmark` with the edges of all images. `visible` lists the model

@@ -22,6 +22,7 @@ struct EdgeMatch {
   /// How far the image edge ends before the prediction's from and to end; negative: it runs on.
   std::array<double, 2> gap_px{};
   double grey_ratio = 0;  ///< measured value of LandmarkEdge::grey_ratio
+  bool is_measured = true;  ///< false: evidence that the edge is there, too far off to measure the pose by
 };
 
 /// The candidates of `predicted` in `view` that make it, of the contrast sign that is more likely, as one

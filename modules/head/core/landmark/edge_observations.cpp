@@ -12,6 +12,7 @@ std::vector<EdgeObservation> Observations(const LandmarkModel& model, const Asso
   constexpr double kBeyond_px = 3;
   std::vector<EdgeObservation> observations;
   for (const EdgeMatch& match : association.matches) {
+    if (!match.is_measured) continue;
     const CameraView& view = views[match.camera];
     const LandmarkEdge& edge = model.edges[match.edge];
     const auto predicted =

@@ -25,6 +25,8 @@ struct LandmarkEdge {
   /// middle.
   double ByBreadth() const { return side == 1 ? 0.5 : side == 2 ? -0.5 : 0; }
   bool IsVertical() const { return (to - from).head<2>().norm() < 0.01 * std::abs(to.z() - from.z()); }
+  /// A fixed edge that lies as high at both ends.
+  bool IsLevel() const { return !IsMovable() && std::abs(to.z() - from.z()) < 0.01 * (to - from).norm(); }
   /// Whether a viewer at `in_landmark` is in the sector widened by `margin_rad` at both ends.
   bool IsSeenFrom(const Eigen::Vector2d& in_landmark, double margin_rad = 0) const;
 };

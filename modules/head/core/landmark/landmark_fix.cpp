@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "head/core/landmark/edge_observations.hpp"
 #include "head/core/landmark/prediction.hpp"
@@ -16,6 +17,7 @@ constexpr AssociationOptions kProposed{.sigma_px = 2.0, .gate_px = 5.0, .max_ang
 constexpr AssociationOptions kApproached{.sigma_px = 1.0, .gate_px = 3.0, .max_angle_rad = 0.04};
 constexpr AssociationOptions kRefined{.sigma_px = 0.5, .gate_px = 1.6, .max_angle_rad = 0.03};
 constexpr int kRefineBest = 8;
+constexpr int kLeftSide = 1, kRightSide = 2;  ///< LandmarkEdge::side
 constexpr double kSameAnswer = 9;  ///< squared Mahalanobis distance, 3 degrees of freedom
 
 std::vector<int> VisibleAt(const LandmarkModel& model, const Pose2& base_from_landmark,
@@ -107,11 +109,12 @@ struct LandmarkFinder::Pose {
   Pose2 base_from_landmark;
   Association association;
   PoseSolution solution;
+  double sharp_chi_squared = 0;  ///< of the solution for which edges are as sharp as they should be
   double rival_log_odds = -1e9;
 
   /// With what the model had to be bent for it: any pose a little beside the right one explains the images
   /// when every edge may be where it is found.
-  double LogOdds() const { return association.log_odds - solution.chi_squared / 2; }
+  double LogOdds() const { return association.log_odds - sharp_chi_squared / 2; }
 };
 
 const char* Describe(Verdict verdict) {
@@ -186,12 +189,20 @@ std::vector<LandmarkFinder::Start> LandmarkFinder::BestStarts(const LandmarkMode
 
 /// Refines a pose that was approached once.
 void LandmarkFinder::Refine(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const {
-  if (!Approach(model, views, kApproached, true, pose) || !Approach(model, views, kRefined, false, pose))
-    return;
+  if (Approach(model, views, kApproached, true, pose) && Approach(model, views, kRefined, false, pose))
+    MatchAgain(model, views, pose);
+}
+
+/// Looks for the edges from where the pose is now, and measures by them.
+void LandmarkFinder::MatchAgain(const LandmarkModel& model, std::span<const CameraView> views,
+                                Pose& pose) const {
   const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
   pose.association = Associate(Shifted(model, pose.solution.edge_shifts),
                                VisibleAt(model, pose.base_from_landmark), views, at, kRefined);
-  DropOutliers(model, views, pose);
+  if (!Solve(model, views, options_.solver.edge_sigma_px, pose)) return;
+  pose.sharp_chi_squared = pose.solution.chi_squared;
+  const bool fits = pose.solution.suspect.misfit < options_.outlier_misfit;
+  if (!fits && DropWrong(model, views, pose)) Adjust(model, views, pose);
 }
 
 /// Refines all starts; many lead to the same pose, which is refined only once.
@@ -215,20 +226,54 @@ std::vector<LandmarkFinder::Pose> LandmarkFinder::RefineAll(const LandmarkModel&
   return refined;
 }
 
-/// Removes outliers: an image edge beside the right one can lie within the gate and has a large residual when
-/// all others agree on the pose.
-void LandmarkFinder::DropOutliers(const LandmarkModel& model, std::span<const CameraView> views,
-                                  Pose& pose) const {
+bool LandmarkFinder::Solve(const LandmarkModel& model, std::span<const CameraView> views,
+                           double edge_sigma_px, Pose& pose) const {
+  const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
+  PoseSolverOptions solver = options_.solver;
+  solver.edge_sigma_px = edge_sigma_px;
+  const auto observations = Observations(model, pose.association, views, at, false);
+  pose.solution = SolvePose(model, Cameras(views), observations, at, solver);
+  if (pose.solution.ok) pose.base_from_landmark = Flatten(pose.solution.base_from_landmark);
+  return pose.solution.ok;
+}
+
+/// Removes edges of something else: an image edge beside the right one can lie within the gate and be farther
+/// off than light and lens put an edge when all others agree on the pose.
+bool LandmarkFinder::DropWrong(const LandmarkModel& model, std::span<const CameraView> views,
+                               Pose& pose) const {
   for (int dropped = 0;; ++dropped) {
-    const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
-    const auto observations = Observations(model, pose.association, views, at, false);
-    pose.solution = SolvePose(model, Cameras(views), observations, at, options_.solver);
-    if (!pose.solution.ok) return;
-    pose.base_from_landmark = Flatten(pose.solution.base_from_landmark);
+    if (!Solve(model, views, options_.rough_edge_px, pose)) return false;
     const EdgeSuspect& suspect = pose.solution.suspect;
-    if (suspect.misfit < options_.outlier_misfit || dropped == options_.max_outliers) return;
+    if (suspect.misfit < options_.outlier_misfit || dropped == options_.max_outliers) return true;
     pose.association.Withdraw(model, suspect.edge, suspect.camera);
-    if (pose.association.matches.size() < std::size_t(options_.min_matched)) return;
+    if (pose.association.matches.size() < std::size_t(options_.min_matched)) return false;
+  }
+}
+
+/// The pose by edges as sharp as they should be, without the few that shadow or blur has moved; where most
+/// are moved, edges are as unsharp as they show themselves.
+void LandmarkFinder::Adjust(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const {
+  pose.sharp_chi_squared = pose.solution.chi_squared;
+  if (pose.solution.misfit > options_.max_misfit) return;
+  const Pose rough = pose;
+  std::optional<double> sharp_chi_squared;
+  for (const double unsharp : {1, 4, 12}) {
+    pose = rough;
+    const bool ok = SetAside(model, views, unsharp * options_.solver.edge_sigma_px, pose);
+    if (!sharp_chi_squared) sharp_chi_squared = pose.solution.chi_squared;
+    pose.sharp_chi_squared = *sharp_chi_squared;
+    if (ok && pose.solution.misfit <= options_.max_misfit) return;
+  }
+}
+
+bool LandmarkFinder::SetAside(const LandmarkModel& model, std::span<const CameraView> views,
+                              double edge_sigma_px, Pose& pose) const {
+  for (int aside = 0;; ++aside) {
+    if (!Solve(model, views, edge_sigma_px, pose)) return false;
+    const EdgeSuspect& suspect = pose.solution.suspect;
+    if (suspect.misfit < options_.outlier_misfit || aside == options_.max_outliers) return true;
+    pose.association.SetAside(suspect.edge, suspect.camera);
+    if (pose.association.Measuring() < options_.min_matched) return false;
   }
 }
 
@@ -266,8 +311,13 @@ LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPredi
   if (poses.empty()) return fix;
   const auto best = std::max_element(poses.begin(), poses.end(),
                                      [](const Pose& a, const Pose& b) { return a.LogOdds() < b.LogOdds(); });
+  // Outliers bent the pose from which its edges were looked for.
+  if (Pose again = *best; MatchAgain(model, views, again), again.solution.ok) *best = std::move(again);
   best->rival_log_odds = RivalLogOdds(prediction, search, poses, *best);
   Judge(prediction, search, static_cast<int>(proposals.poses.size()), views.size(), *best, fix);
+  if (fix.verdict == Verdict::kFound && !options_.IsSharp(search) &&
+      OtherBreadth(model, views, *best) > -options_.min_lead_over_breadth)
+    fix.verdict = Verdict::kResidualTooLarge;
   if (fix.verdict == Verdict::kFound) Learn(model, views, *best, fix);
   return fix;
 }
@@ -298,6 +348,38 @@ LandmarkFix LandmarkFinder::FindKnown(const LandmarkModel& model, const Landmark
   return fix;
 }
 
+/// The same landmark, broader by so much, all of it on one side.
+LandmarkModel WithSideAt(const LandmarkModel& model, int side, double out_m) {
+  LandmarkModel other = model;
+  const double by_m = side == kLeftSide ? out_m : -out_m;
+  for (LandmarkEdge& edge : other.edges) {
+    if (edge.side == side) edge.from.y() += by_m, edge.to.y() += by_m;
+    if (edge.side != 0) continue;
+    for (Eigen::Vector3d* end : {&edge.from, &edge.to})
+      if ((end->y() > 0) == (side == kLeftSide)) end->y() += by_m;
+  }
+  return other;
+}
+
+/// How much better than the model one fits of which either side is clearly elsewhere: another landmark of the
+/// same kind. In log odds; negative when the model fits better than all of these.
+double LandmarkFinder::OtherBreadth(const LandmarkModel& model, std::span<const CameraView> views,
+                                    const Pose& pose) const {
+  constexpr double kFrom_m = 0.04, kTo_m = 0.2, kStep_m = 0.01;
+  const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
+  const LandmarkModel seen = Shifted(model, pose.solution.edge_shifts);
+  const std::vector<int> visible = VisibleAt(model, pose.base_from_landmark);
+  const double here = Associate(seen, visible, views, at, kProposed).log_odds;
+  double best = -1e9;
+  for (const int side : {kLeftSide, kRightSide})
+    for (double by_m = kFrom_m; by_m <= kTo_m; by_m += kStep_m)
+      for (const double out_m : {by_m, -by_m}) {
+        const double there = Associate(WithSideAt(seen, side, out_m), visible, views, at, kProposed).log_odds;
+        best = std::max(best, there - here);
+      }
+  return best;
+}
+
 double LandmarkFinder::RivalLogOdds(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search,
                                     const std::vector<Pose>& poses, const Pose& best) const {
   // Where the prediction is sharp, it has a say in which of two poses it is.
@@ -311,7 +393,7 @@ double LandmarkFinder::RivalLogOdds(const LandmarkPrediction& prediction, const 
     if (!IsDistinct(p.base_from_landmark, best.base_from_landmark, options_)) continue;
     // One side alone leaves the heading open: what lies within that uncertainty is the same answer.
     if (SquaredDistance(p.base_from_landmark, best.base_from_landmark, uncertainty) < kSameAnswer) continue;
-    rival = std::max(rival, p.LogOdds() + best.solution.chi_squared / 2 + surprise(best) - surprise(p));
+    rival = std::max(rival, p.LogOdds() + best.sharp_chi_squared / 2 + surprise(best) - surprise(p));
   }
   return rival;
 }

@@ -69,18 +69,22 @@ struct LandmarkFixOptions {
   int min_matched_sharp =
       4;  ///< and that many where the prediction is sharp: one jamb's, when the base is near
   double min_log_odds = 7;       ///< log odds wanted beyond the logarithm of the number of poses tried
-  double min_share = 0.5;        ///< share of the log odds that a perfect match would give
-  double min_side_share = 0.45;  ///< least side_share of a fix
+  double min_share = 0.4;        ///< share of the log odds that a perfect match would give
+  double min_side_share = 0.1;  ///< least side_share of a fix
   double sharp_m =
       0.08;  ///< a prediction with a smaller sigma of the place leaves no room for another landmark
   double one_sided_log_odds =
       5;  ///< log odds wanted in addition if only one side is in view: it could be another landmark's
   double min_lead = 6;  ///< log odds wanted over the best different pose
+  double min_lead_over_breadth = 2;  ///< and over the same landmark with one side clearly elsewhere
   double max_residual_px = 1.2;
   double max_misfit = 3;
   double outlier_misfit = 6;  ///< an edge that fits worse (chi squared per degree of freedom: 0.01 to 0.2 %
                               ///< of the right ones) is not the model's
-  int max_outliers = 3;       ///< largest number of edges that are taken out
+  double rough_edge_px = 0.15;  ///< so far shadow, blur and neighbours move an edge that is the model's: one
+                                ///< that misfits then is none, one that misfits when edges are sharp is not
+                                ///< measured by
+  int max_outliers = 3;         ///< largest number of edges that are taken out, and of those not measured by
   double distinct_m = 0.03, distinct_rad = 0.02;  ///< poses farther apart are different
   VerticalStereoOptions stereo;
   ProposalOptions proposals;
@@ -128,7 +132,14 @@ class LandmarkFinder {
                                 std::span<const CameraView> views) const;
   std::vector<Pose> RefineAll(const LandmarkModel& model, std::span<const CameraView> views,
                               std::span<const Start> starts) const;
-  void DropOutliers(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const;
+  void MatchAgain(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const;
+  bool Solve(const LandmarkModel& model, std::span<const CameraView> views, double edge_sigma_px,
+             Pose& pose) const;
+  bool DropWrong(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const;
+  void Adjust(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const;
+  bool SetAside(const LandmarkModel& model, std::span<const CameraView> views, double edge_sigma_px,
+                Pose& pose) const;
+  double OtherBreadth(const LandmarkModel& model, std::span<const CameraView> views, const Pose& pose) const;
   double RivalLogOdds(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search,
                       const std::vector<Pose>& poses, const Pose& best) const;
   void Judge(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search, int n_tested,

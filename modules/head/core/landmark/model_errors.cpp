@@ -9,6 +9,12 @@ namespace {
 /// What an edge, and the breadth, may be off in each look alike.
 constexpr double kEdgeAlike_m = 0.0007, kBreadthAlike_m = 0.001;
 
+double TopOf(const LandmarkModel& model) {
+  double top_m = 0;
+  for (const LandmarkEdge& edge : model.edges) top_m = std::max({top_m, edge.from.z(), edge.to.z()});
+  return top_m;
+}
+
 }  // namespace
 
 Breadth ModelErrors::breadth() const {
@@ -35,17 +41,23 @@ LandmarkModel Shifted(LandmarkModel model, const EdgeShifts& shifts) {
   return model;
 }
 
-Eigen::VectorXd ModelVariance::Of(const LandmarkModel& model) const {
-  Eigen::VectorXd variance(ModelErrors::SizeFor(model));
-  for (std::size_t i = 0; i < model.edges.size(); ++i)
-    variance.segment<3>(static_cast<Eigen::Index>(3 * i))
-        .setConstant(model.edges[i].IsMovable() ? movable_m2 : edge_m2);
+Eigen::MatrixXd ModelVariance::CovarianceFor(const LandmarkModel& model) const {
+  const Eigen::Index size = ModelErrors::SizeFor(model);
+  Eigen::VectorXd variance(size), by_height = Eigen::VectorXd::Zero(size);
+  const double top_m = TopOf(model);
+  for (std::size_t i = 0; i < model.edges.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(3 * i);
+    variance.segment<3>(at).setConstant(model.edges[i].IsMovable() ? movable_m2 : edge_m2);
+    if (top_m > 0 && model.edges[i].IsLevel()) by_height(at + 2) = model.edges[i].from.z() / top_m;
+  }
   variance.tail<1>()(0) = breadth_m2;
-  return variance;
+  Eigen::MatrixXd covariance = height_m2 * by_height * by_height.transpose();
+  covariance.diagonal() += variance;
+  return covariance;
 }
 
 ModelErrors CarriedOver(ModelErrors errors, const LandmarkModel& model, const ModelVariance& before) {
-  const Eigen::VectorXd prior = before.Of(model);
+  const Eigen::VectorXd prior = before.CovarianceFor(model).diagonal();
   // Nothing is less known than before any look.
   Eigen::VectorXd alike = Eigen::VectorXd::Constant(prior.size(), kEdgeAlike_m * kEdgeAlike_m);
   alike.tail<1>()(0) = kBreadthAlike_m * kBreadthAlike_m;
@@ -63,7 +75,7 @@ ModelErrors CarriedOver(ModelErrors errors, const LandmarkModel& model, const Mo
 
 ModelErrors OnlyBreadth(const ModelErrors& errors, const LandmarkModel& model, const ModelVariance& before) {
   if (errors.mean.size() != ModelErrors::SizeFor(model)) return {};
-  ModelErrors only{Eigen::VectorXd::Zero(errors.mean.size()), before.Of(model).asDiagonal()};
+  ModelErrors only{Eigen::VectorXd::Zero(errors.mean.size()), before.CovarianceFor(model)};
   const Breadth breadth = errors.breadth();
   only.mean.tail<1>()(0) = breadth.broader_m;
   only.covariance.bottomRightCorner<1, 1>()(0, 0) = breadth.sigma_m * breadth.sigma_m;

@@ -36,12 +36,13 @@ EdgeShifts ShiftsOf(const LandmarkModel& model, const Eigen::VectorXd& errors);
 /// The model with its edges shifted.
 LandmarkModel Shifted(LandmarkModel model, const EdgeShifts& shifts);
 
-/// Variances of the errors that models have before any look.
+/// Variances of the errors that models have before any look: of each edge by itself, of one that moves, of the
+/// breadth and of the height, which lifts all that is level by its share of it.
 struct ModelVariance {
-  double edge_m2 = 0, movable_m2 = 0, breadth_m2 = 0;
+  double edge_m2 = 0, movable_m2 = 0, breadth_m2 = 0, height_m2 = 0;
 
   /// In the order of ModelErrors.
-  Eigen::VectorXd Of(const LandmarkModel& model) const;
+  Eigen::MatrixXd CovarianceFor(const LandmarkModel& model) const;
 };
 
 /// What still holds at the next look: a movable edge may have been moved, and what all looks err alike, by

@@ -37,7 +37,8 @@ class Problem {
         lines_(ObservedLines(observations)),
         pose_(initial),
         options_(options),
-        model_variance_(options.VarianceOfModel().Of(model)),
+        model_covariance_(options.known ? options.known->covariance
+                                        : options.VarianceOfModel().CovarianceFor(model)),
         common_root_(SquareRoot(options.base_covariance)) {
     if (options.on_floor) {
       free_.resize(6, 3);
@@ -99,18 +100,17 @@ class Problem {
 
   /// The part of it that comes from the places of the model's edges.
   double CovarianceByModel(const Row& a, const Row& b) const {
-    const Eigen::Index last = model_variance_.size() - 1;
-    if (!options_.known) {
-      const double own = a.edge == b.edge ? a.across.dot(b.across) * model_variance_(3 * a.edge) : 0;
-      return own + model_variance_(last) * ByBreadth(a) * ByBreadth(b);
-    }
-    const Eigen::MatrixXd& known = options_.known->covariance;
+    const Eigen::MatrixXd& known = model_covariance_;
+    const Eigen::Index last = known.cols() - 1;
+    const double by_breadth = known(last, last) * ByBreadth(a) * ByBreadth(b);
+    const bool both_level = model_.edges[a.edge].IsLevel() && model_.edges[b.edge].IsLevel();
+    if (!options_.known && a.edge != b.edge && !both_level) return by_breadth;
     const Eigen::Vector3d in_a = pose_.linear().transpose() * a.across,
                           in_b = pose_.linear().transpose() * b.across;
     return in_a.dot(known.block<3, 3>(3 * a.edge, 3 * b.edge) * in_b) +
            in_a.dot(known.block<3, 1>(3 * a.edge, last)) * ByBreadth(b) +
            in_b.dot(known.block<3, 1>(3 * b.edge, last)) * ByBreadth(a) +
-           known(last, last) * ByBreadth(a) * ByBreadth(b);
+           by_breadth;
   }
 
   /// How a residual grows with the breadth of the landmark, whose sides lie half of it beside the middle.
@@ -120,7 +120,7 @@ class Problem {
 
   /// Derivative of the residuals by the errors of the model.
   Eigen::MatrixXd ByErrors() const {
-    Eigen::MatrixXd by = Eigen::MatrixXd::Zero(distance_.size(), model_variance_.size());
+    Eigen::MatrixXd by = Eigen::MatrixXd::Zero(distance_.size(), model_covariance_.cols());
     for (std::size_t i = 0; i < residuals_.size(); ++i) {
       const Row& row = residuals_[i];
       const auto at = static_cast<Eigen::Index>(i);
@@ -132,8 +132,7 @@ class Problem {
 
   /// `matrix` times the covariance of the errors of the model before this look.
   Eigen::MatrixXd TimesPrior(const Eigen::MatrixXd& matrix) const {
-    if (options_.known) return matrix * options_.known->covariance;
-    return matrix * model_variance_.asDiagonal();
+    return matrix * model_covariance_;
   }
 
   /// The errors of the model under the condition of the residuals. What only who learns them needs takes
@@ -221,7 +220,7 @@ class Problem {
   std::vector<ObservedLine> lines_;
   Eigen::Isometry3d pose_;
   PoseSolverOptions options_;
-  Eigen::VectorXd model_variance_;
+  Eigen::MatrixXd model_covariance_;  ///< of the errors of the model before this look
   Matrix6 common_root_;
   Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6> free_;  ///< directions in which the pose may move
   std::vector<Row> residuals_;

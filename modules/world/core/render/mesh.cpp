@@ -2,17 +2,25 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace priamos::world {
 
 namespace {
 
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kCell_m = 0.6;  // grid on which light is computed, in the middle of a face ...
 constexpr double kRim_m = 0.2;   // ... and near its rim, where corners are darker
 constexpr double kInset_m = 0.08;
+/// So near to a border light is computed where something thin beside it, such as a frame, shades the face.
+constexpr std::array kContact_m{0.003, 0.008, 0.016, 0.03, kInset_m};
+/// A border is shaded when it lacks this share of the light that is kInset_m away from it.
+constexpr double kShade = 0.05;
+constexpr double kLook_m = 0.05;  ///< along a border it is looked at so often
 constexpr float kBlackLight = 0.03F;  // of the reference body ...
 constexpr float kDiscLight = 0.08F;   // ... and its discs, but for the lamp beside the lens
 constexpr int kDiscCorners = 96;
@@ -31,41 +39,103 @@ double Start(const Vector3d& origin, const Vector3d& side) {
 
 double LightAt(const Face& face, double a, double b, const Lighting& lighting) {
   const Vector3d normal = face.along.cross(face.up).normalized();
-  // Off the border, where a thin neighbour such as a skirting shades only the last centimetres.
-  const double inset_a = std::min(0.3, kInset_m / face.along.norm()),
-               inset_b = std::min(0.3, kInset_m / face.up.norm());
-  const double inner_a = std::clamp(a, inset_a, 1 - inset_a), inner_b = std::clamp(b, inset_b, 1 - inset_b);
-  return lighting.At(face.origin + inner_a * face.along + inner_b * face.up + 0.002 * normal, normal);
+  return lighting.At(face.origin + a * face.along + b * face.up + 0.002 * normal, normal);
+}
+
+/// One side of a face; places along it are shares of its length.
+struct Side {
+  double start = 0, length_m = 0;
+  bool dark_begin = false, dark_end = false;  ///< something thin shades the border at its beginning, its end
+  std::vector<double> steps{};                ///< where what shades the other side's borders begins or ends
+
+  double Share(double distance_m) const { return std::min(0.3, distance_m / length_m); }
+  /// Where light is computed for a place: off a border, if nothing thin shades that.
+  double Lit(double at) const {
+    return std::clamp(at, Share(dark_begin ? kContact_m[0] : kInset_m),
+                      1 - Share(dark_end ? kContact_m[0] : kInset_m));
+  }
+};
+
+/// The place between two of different shade where it changes: one just before it and one just behind.
+template <typename IsDark>
+std::pair<double, double> StepBetween(double from, double to, const IsDark& is_dark) {
+  constexpr int kHalvings = 3;
+  const bool dark = is_dark(from);
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = (from + to) / 2;
+    (is_dark(middle) == dark ? from : to) = middle;
+  }
+  return {from, to};
+}
+
+/// Whether something thin shades a border anywhere; `along` learns where that begins and ends.
+template <typename IsDark>
+bool FindShade(const IsDark& is_dark, Side& along) {
+  const int n = std::max(3, static_cast<int>(along.length_m / kLook_m));
+  bool any = false, last = false;
+  for (int i = 0; i < n; ++i) {
+    const double at = (i + 0.5) / n;
+    const bool dark = is_dark(at);
+    any = any || dark;
+    if (i > 0 && dark != last) {
+      const auto [before, behind] = StepBetween(at - 1.0 / n, at, is_dark);
+      along.steps.insert(along.steps.end(), {before, behind});
+    }
+    last = dark;
+  }
+  return any;
 }
 
 /// Where along a side light is computed, 0..1: at its ends, near them, and at multiples of kCell_m of a
 /// coordinate that is `start` at its beginning, so that faces in one plane agree about the light where they
 /// meet.
-std::vector<double> Grid(double start, double length) {
-  std::vector<double> lines{0, length};
+std::vector<double> Grid(const Side& side) {
+  const double length_m = side.length_m;
+  std::vector<double> lines{0, length_m};
   const auto add = [&](double line) {
     const auto close = [line](double other) { return std::abs(line - other) < kRim_m / 2; };
-    if (line > 0 && line < length && std::none_of(lines.begin(), lines.end(), close)) lines.push_back(line);
+    if (line > 0 && line < length_m && std::none_of(lines.begin(), lines.end(), close)) lines.push_back(line);
   };
-  if (length > 3 * kRim_m) {
+  if (length_m > 3 * kRim_m) {
     add(kRim_m);
-    add(length - kRim_m);
+    add(length_m - kRim_m);
   }
-  for (int i = static_cast<int>(std::ceil(start / kCell_m)); i * kCell_m < start + length; ++i)
-    add(i * kCell_m - start);
+  for (int i = static_cast<int>(std::ceil(side.start / kCell_m)); i * kCell_m < side.start + length_m; ++i)
+    add(i * kCell_m - side.start);
+  for (const double contact_m : kContact_m) {
+    if (side.dark_begin) lines.push_back(side.Share(contact_m) * length_m);
+    if (side.dark_end) lines.push_back((1 - side.Share(contact_m)) * length_m);
+  }
+  for (const double step : side.steps) lines.push_back(step * length_m);
   std::sort(lines.begin(), lines.end());
-  for (double& line : lines) line /= length;
+  for (double& line : lines) line /= length_m;
   return lines;
 }
 
+/// Both sides of a face, with what shades their borders.
+std::pair<Side, Side> SidesOf(const Face& face, const Lighting& lighting) {
+  Side a{Start(face.origin, face.along), face.along.norm()}, b{Start(face.origin, face.up), face.up.norm()};
+  const auto look = [](Side& side, Side& along, const auto& light) {
+    const double border = side.Share(kContact_m[0]), beside = side.Share(kInset_m);
+    side.dark_begin = FindShade(
+        [&](double at) { return light(border, at) < (1 - kShade) * light(beside, at); }, along);
+    side.dark_end = FindShade(
+        [&](double at) { return light(1 - border, at) < (1 - kShade) * light(1 - beside, at); }, along);
+  };
+  if (std::min(a.length_m, b.length_m) < 3 * kRim_m) return {a, b};
+  look(a, b, [&](double at, double along) { return LightAt(face, at, along, lighting); });
+  look(b, a, [&](double at, double along) { return LightAt(face, along, at, lighting); });
+  return {a, b};
+}
+
 void AppendFace(const Face& face, const Lighting& lighting, double most_light, Mesh& mesh) {
-  const std::vector<double> columns = Grid(Start(face.origin, face.along), face.along.norm());
-  const std::vector<double> rows = Grid(Start(face.origin, face.up), face.up.norm());
+  const auto [along, up] = SidesOf(face, lighting);
+  const std::vector<double> columns = Grid(along), rows = Grid(up);
   std::vector<MeshVertex> grid;
   for (const double b : rows) {
     for (const double a : columns) {
       const Vector3d p = face.origin + a * face.along + b * face.up;
-      const double light = std::min(LightAt(face, a, b, lighting) / most_light, 1.0);
+      const double light = std::min(LightAt(face, along.Lit(a), up.Lit(b), lighting) / most_light, 1.0);
       grid.push_back({float(p.x()), float(p.y()), float(p.z()), float(face.u0 + a * (face.u1 - face.u0)),
                       float(face.v0 + b * (face.v1 - face.v0)), float(face.layer), float(light), 0, 0});
     }
@@ -116,7 +186,7 @@ void Cover(Face& face, const Surface& surface) {
 /// A level piece of floor, `z` high.
 void AppendLevel(const FloorPiece& piece, double z, const Surface& covering, const Lighting& lighting,
                  double most_light, Mesh& mesh) {
-  const Eigen::Vector2d size = piece.high - piece.low;
+  const Vector2d size = piece.high - piece.low;
   Face face{{piece.low.x(), piece.low.y(), z}, {size.x(), 0, 0}, {0, size.y(), 0}, 0, 0, 0, 0, 0};
   Cover(face, covering);
   AppendFace(face, lighting, most_light, mesh);
@@ -125,7 +195,7 @@ void AppendLevel(const FloorPiece& piece, double z, const Surface& covering, con
 /// Its bottom, and its sides seen from within.
 void AppendHole(const HolePlan& hole, const Surface& covering, const Lighting& lighting, double most_light,
                 Mesh& mesh) {
-  const Eigen::Vector2d half(hole.length_m / 2, hole.width_m / 2), middle(hole.x_m, hole.y_m);
+  const Vector2d half(hole.length_m / 2, hole.width_m / 2), middle(hole.x_m, hole.y_m);
   AppendLevel({middle - half, middle + half}, -hole.depth_m, covering, lighting, most_light, mesh);
   Eigen::Isometry3d map_from_hole(Eigen::Translation3d(hole.x_m, hole.y_m, 0));
   const Sides sides = BoxFaces(map_from_hole, {-half.x(), -half.y(), -hole.depth_m}, {half.x(), half.y(), 0});

@@ -36,7 +36,7 @@ class LandmarkFixTest : public testing::Test {
     ModelErrors errors;
     errors.mean = Eigen::VectorXd::Zero(ModelErrors::SizeFor(model_));
     errors.mean.tail<1>()(0) = broader_m;
-    errors.covariance = options.solver.VarianceOfModel().Of(model_).asDiagonal();
+    errors.covariance = options.solver.VarianceOfModel().CovarianceFor(model_);
     errors.covariance.bottomRightCorner<1, 1>()(0, 0) = 1e-8;
     return errors;
   }
