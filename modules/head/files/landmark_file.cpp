@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "common/config.hpp"
-#include "head/core/landmark/cao.hpp"
-#include "head/core/landmark/triangle_body.hpp"
+#include "head/core/bodies/cao.hpp"
+#include "head/core/bodies/triangle_body.hpp"
 #include "head/files/mesh_file.hpp"
 #include "head/files/model_text.hpp"
 

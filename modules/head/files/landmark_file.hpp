@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "head/core/landmark/polyhedron.hpp"
+#include "head/core/bodies/polyhedron.hpp"
 
 namespace priamos::head {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "head/core/landmark/triangle_mesh.hpp"
+#include "head/core/bodies/triangle_mesh.hpp"
 
 namespace priamos::head {
 

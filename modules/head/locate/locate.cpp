@@ -9,7 +9,7 @@
 
 #include "common/config.hpp"
 #include "common/geometry.hpp"
-#include "head/core/landmark/body_tracker.hpp"
+#include "head/core/bodies/body_tracker.hpp"
 #include "head/files/landmark_file.hpp"
 #include "head/locate/body_drawings.hpp"
 #include "head/locate/eyes.hpp"

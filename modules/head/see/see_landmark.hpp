@@ -4,7 +4,7 @@
 #include <opencv2/core/mat.hpp>
 #include <span>
 
-#include "head/core/landmark/free_model_fix.hpp"
+#include "head/core/bodies/free_model_fix.hpp"
 #include "head/see/see_page.hpp"
 
 namespace priamos::head {

@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "head/see/see_landmark.hpp"
-#include "test/head/core/landmark/grey_cupboard.hpp"
+#include "test/head/core/bodies/grey_cupboard.hpp"
 #include "test/support/temporary_folder.hpp"
 #include "test/support/thrown_reason.hpp"
 

@@ -4,35 +4,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
+#include <ranges>
+#include <utility>
 
-#include "head/core/landmark/edge_observations.hpp"
+#include "head/core/landmark/other_breadth.hpp"
 #include "head/core/landmark/prediction.hpp"
 
 namespace priamos::head {
 namespace {
 
-/// Gates of the three passes from a proposal to the result: the prediction gets sharper from pass to pass.
+/// How near to a proposed pose edges are looked for.
 constexpr AssociationOptions kProposed{.sigma_px = 2.0, .gate_px = 5.0, .max_angle_rad = 0.06};
-constexpr AssociationOptions kApproached{.sigma_px = 1.0, .gate_px = 3.0, .max_angle_rad = 0.04};
-constexpr AssociationOptions kRefined{.sigma_px = 0.5, .gate_px = 1.6, .max_angle_rad = 0.03};
 constexpr int kRefineBest = 8;
-constexpr int kLeftSide = 1, kRightSide = 2;  ///< LandmarkEdge::side
 constexpr double kSameAnswer = 9;  ///< squared Mahalanobis distance, 3 degrees of freedom
-
-std::vector<int> VisibleAt(const LandmarkModel& model, const Pose2& base_from_landmark,
-                           double margin_rad = 0) {
-  const Eigen::Vector2d viewer = base_from_landmark.Inverse().translation();
-  std::vector<int> visible;
-  for (std::size_t i = 0; i < model.edges.size(); ++i) {
-    if (model.edges[i].IsSeenFrom(viewer, margin_rad)) visible.push_back(static_cast<int>(i));
-  }
-  return visible;
-}
-
-Pose2 Flatten(const Eigen::Isometry3d& t) {
-  return {t.translation().x(), t.translation().y(), std::atan2(t.linear()(1, 0), t.linear()(0, 0))};
-}
 
 Eigen::Matrix3d OnFloor(const Eigen::Matrix<double, 6, 6>& covariance) {
   constexpr std::array<int, 3> kAxes{0, 1, 5};
@@ -48,10 +32,20 @@ bool IsSame(const Pose2& a, const Pose2& b) {
   return (a.translation() - b.translation()).norm() < 0.004 && std::abs(WrapAngle(a.yaw - b.yaw)) < 0.002;
 }
 
-std::vector<const CameraModel*> Cameras(std::span<const CameraView> views) {
-  std::vector<const CameraModel*> cameras;
-  for (const CameraView& view : views) cameras.push_back(view.camera);
-  return cameras;
+/// Refines all starts; many lead to the same pose, which is refined only once.
+std::vector<RefinedPose> RefineAll(std::vector<RefinedPose> starts, const PoseRefinement& refinement) {
+  std::vector<RefinedPose> approached, refined;
+  for (RefinedPose& pose : starts) {
+    if (!refinement.Approach(pose)) continue;
+    const bool known = std::any_of(approached.begin(), approached.end(), [&](const RefinedPose& other) {
+      return IsSame(other.base_from_landmark, pose.base_from_landmark);
+    });
+    if (known) continue;
+    approached.push_back(pose);
+    refinement.Refine(pose);
+    if (pose.solution.ok) refined.push_back(std::move(pose));
+  }
+  return refined;
 }
 
 bool IsDistinct(const Pose2& a, const Pose2& b, const LandmarkFixOptions& options) {
@@ -98,25 +92,6 @@ EdgeShifts ShiftsOfBreadth(const LandmarkModel& model, double broader_m) {
 
 }  // namespace
 
-/// Where the refinement begins: a pose, and how far the edges are off their places in the model.
-struct LandmarkFinder::Start {
-  double log_odds = 0;
-  Pose2 base_from_landmark;
-  EdgeShifts shifts;
-};
-
-struct LandmarkFinder::Pose {
-  Pose2 base_from_landmark;
-  Association association;
-  PoseSolution solution;
-  double sharp_chi_squared = 0;  ///< of the solution for which edges are as sharp as they should be
-  double rival_log_odds = -1e9;
-
-  /// With what the model had to be bent for it: any pose a little beside the right one explains the images
-  /// when every edge may be where it is found.
-  double LogOdds() const { return association.log_odds - sharp_chi_squared / 2; }
-};
-
 const char* Describe(Verdict verdict) {
   switch (verdict) {
     case Verdict::kFound:
@@ -149,31 +124,19 @@ std::string_view WhyBlind(const EdgeImage& edges) {
   return {};
 }
 
-bool LandmarkFinder::Approach(const LandmarkModel& model, std::span<const CameraView> views,
-                              const AssociationOptions& gate, bool coarse, Pose& pose) const {
-  const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
-  const LandmarkModel seen = Shifted(model, pose.solution.edge_shifts);
-  pose.association = Associate(seen, VisibleAt(model, pose.base_from_landmark), views, at, gate);
-  const auto observations = Observations(model, pose.association, views, at, coarse);
-  PoseSolverOptions solver = options_.solver;
-  solver.find_suspect = false;
-  pose.solution = SolvePose(model, Cameras(views), observations, at, solver);
-  if (pose.solution.ok) pose.base_from_landmark = Flatten(pose.solution.base_from_landmark);
-  return pose.solution.ok;
-}
-
 /// The proposed poses that explain the pictures best, best first; the others are not refined. A landmark that
 /// is broader or narrower than its model is tried as well, as both of its sides would be beyond the gates.
-std::vector<LandmarkFinder::Start> LandmarkFinder::BestStarts(const LandmarkModel& model,
-                                                              std::span<const PoseProposal> proposals,
-                                                              std::span<const CameraView> views) const {
-  std::vector<Start> starts;
+std::vector<RefinedPose> LandmarkFinder::BestStarts(const LandmarkModel& model,
+                                                    std::span<const PoseProposal> proposals,
+                                                    std::span<const CameraView> views) const {
+  std::vector<std::pair<double, RefinedPose>> starts;
   const auto suppose = [&](const EdgeShifts& shifts, double log_prior) {
     const LandmarkModel supposed = Shifted(model, shifts);
     for (const PoseProposal& p : proposals) {
       const auto visible = VisibleAt(supposed, p.base_from_landmark);
       const auto a = Associate(supposed, visible, views, Lift(p.base_from_landmark), kProposed);
-      starts.push_back({a.log_odds + log_prior, p.base_from_landmark, shifts});
+      starts.push_back({a.log_odds + log_prior, {.base_from_landmark = p.base_from_landmark}});
+      starts.back().second.solution.edge_shifts = shifts;
     }
   };
   suppose({}, 0);
@@ -182,99 +145,10 @@ std::vector<LandmarkFinder::Start> LandmarkFinder::BestStarts(const LandmarkMode
   for (const double sigmas : {-1.0, 1.0})
     if (breadth_sigma_m > 0) suppose(ShiftsOfBreadth(model, sigmas * breadth_sigma_m), -sigmas * sigmas / 2);
   std::stable_sort(starts.begin(), starts.end(),
-                   [](const Start& a, const Start& b) { return a.log_odds > b.log_odds; });
-  if (starts.size() > kRefineBest) starts.resize(kRefineBest);
-  return starts;
-}
-
-/// Refines a pose that was approached once.
-void LandmarkFinder::Refine(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const {
-  if (Approach(model, views, kApproached, true, pose) && Approach(model, views, kRefined, false, pose))
-    MatchAgain(model, views, pose);
-}
-
-/// Looks for the edges from where the pose is now, and measures by them.
-void LandmarkFinder::MatchAgain(const LandmarkModel& model, std::span<const CameraView> views,
-                                Pose& pose) const {
-  const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
-  pose.association = Associate(Shifted(model, pose.solution.edge_shifts),
-                               VisibleAt(model, pose.base_from_landmark), views, at, kRefined);
-  if (!Solve(model, views, options_.solver.edge_sigma_px, pose)) return;
-  pose.sharp_chi_squared = pose.solution.chi_squared;
-  const bool fits = pose.solution.suspect.misfit < options_.outlier_misfit;
-  if (!fits && DropWrong(model, views, pose)) Adjust(model, views, pose);
-}
-
-/// Refines all starts; many lead to the same pose, which is refined only once.
-std::vector<LandmarkFinder::Pose> LandmarkFinder::RefineAll(const LandmarkModel& model,
-                                                            std::span<const CameraView> views,
-                                                            std::span<const Start> starts) const {
-  std::vector<Pose> approached, refined;
-  for (const Start& start : starts) {
-    Pose pose;
-    pose.base_from_landmark = start.base_from_landmark;
-    pose.solution.edge_shifts = start.shifts;
-    if (!Approach(model, views, kProposed, true, pose)) continue;
-    const bool known = std::any_of(approached.begin(), approached.end(), [&](const Pose& other) {
-      return IsSame(other.base_from_landmark, pose.base_from_landmark);
-    });
-    if (known) continue;
-    approached.push_back(pose);
-    Refine(model, views, pose);
-    if (pose.solution.ok) refined.push_back(std::move(pose));
-  }
-  return refined;
-}
-
-bool LandmarkFinder::Solve(const LandmarkModel& model, std::span<const CameraView> views,
-                           double edge_sigma_px, Pose& pose) const {
-  const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
-  PoseSolverOptions solver = options_.solver;
-  solver.edge_sigma_px = edge_sigma_px;
-  const auto observations = Observations(model, pose.association, views, at, false);
-  pose.solution = SolvePose(model, Cameras(views), observations, at, solver);
-  if (pose.solution.ok) pose.base_from_landmark = Flatten(pose.solution.base_from_landmark);
-  return pose.solution.ok;
-}
-
-/// Removes edges of something else: an image edge beside the right one can lie within the gate and be farther
-/// off than light and lens put an edge when all others agree on the pose.
-bool LandmarkFinder::DropWrong(const LandmarkModel& model, std::span<const CameraView> views,
-                               Pose& pose) const {
-  for (int dropped = 0;; ++dropped) {
-    if (!Solve(model, views, options_.rough_edge_px, pose)) return false;
-    const EdgeSuspect& suspect = pose.solution.suspect;
-    if (suspect.misfit < options_.outlier_misfit || dropped == options_.max_outliers) return true;
-    pose.association.Withdraw(model, suspect.edge, suspect.camera);
-    if (pose.association.matches.size() < std::size_t(options_.min_matched)) return false;
-  }
-}
-
-/// The pose by edges as sharp as they should be, without the few that shadow or blur has moved; where most
-/// are moved, edges are as unsharp as they show themselves.
-void LandmarkFinder::Adjust(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const {
-  pose.sharp_chi_squared = pose.solution.chi_squared;
-  if (pose.solution.misfit > options_.max_misfit) return;
-  const Pose rough = pose;
-  std::optional<double> sharp_chi_squared;
-  for (const double unsharp : {1, 4, 12}) {
-    pose = rough;
-    const bool ok = SetAside(model, views, unsharp * options_.solver.edge_sigma_px, pose);
-    if (!sharp_chi_squared) sharp_chi_squared = pose.solution.chi_squared;
-    pose.sharp_chi_squared = *sharp_chi_squared;
-    if (ok && pose.solution.misfit <= options_.max_misfit) return;
-  }
-}
-
-bool LandmarkFinder::SetAside(const LandmarkModel& model, std::span<const CameraView> views,
-                              double edge_sigma_px, Pose& pose) const {
-  for (int aside = 0;; ++aside) {
-    if (!Solve(model, views, edge_sigma_px, pose)) return false;
-    const EdgeSuspect& suspect = pose.solution.suspect;
-    if (suspect.misfit < options_.outlier_misfit || aside == options_.max_outliers) return true;
-    pose.association.SetAside(suspect.edge, suspect.camera);
-    if (pose.association.Measuring() < options_.min_matched) return false;
-  }
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<RefinedPose> best;
+  for (auto& start : starts | std::views::take(kRefineBest)) best.push_back(std::move(start.second));
+  return best;
 }
 
 Eigen::Matrix3d LandmarkFixOptions::SearchCovariance(const LandmarkPrediction& prediction) const {
@@ -305,32 +179,21 @@ LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPredi
   }
   Proposals proposals = Propose(model, prediction.base_from_landmark, search, views, options_);
   if (options_.IsSharp(search)) AddPredicted(prediction.base_from_landmark, search, proposals.poses);
-  const auto starts = BestStarts(model, proposals.poses, views);
-  std::vector<Pose> poses = RefineAll(model, views, starts);
+  const PoseRefinement refinement(model, views, options_);
+  std::vector<RefinedPose> poses = RefineAll(BestStarts(model, proposals.poses, views), refinement);
   fix.verdict = Verdict::kTooFewEdges;
   if (poses.empty()) return fix;
-  const auto best = std::max_element(poses.begin(), poses.end(),
-                                     [](const Pose& a, const Pose& b) { return a.LogOdds() < b.LogOdds(); });
+  RefinedPose& best = *std::max_element(poses.begin(), poses.end(), [](const auto& a, const auto& b) {
+    return a.LogOdds() < b.LogOdds();
+  });
   // Outliers bent the pose from which its edges were looked for.
-  if (Pose again = *best; MatchAgain(model, views, again), again.solution.ok) *best = std::move(again);
-  best->rival_log_odds = RivalLogOdds(prediction, search, poses, *best);
-  Judge(prediction, search, static_cast<int>(proposals.poses.size()), views.size(), *best, fix);
-  if (fix.verdict == Verdict::kFound && !options_.IsSharp(search) &&
-      OtherBreadth(model, views, *best) > -options_.min_lead_over_breadth)
+  if (RefinedPose again = best; refinement.MatchAgain(again), again.solution.ok) best = std::move(again);
+  fix.rival_log_odds = RivalLogOdds(prediction, search, poses, best);
+  Judge(prediction, search, static_cast<int>(proposals.poses.size()), views.size(), best, fix);
+  if (fix.verdict == Verdict::kFound && !options_.IsSharp(search) && IsOtherBreadth(model, views, best))
     fix.verdict = Verdict::kResidualTooLarge;
-  if (fix.verdict == Verdict::kFound) Learn(model, views, *best, fix);
+  if (fix.verdict == Verdict::kFound) fix.errors = refinement.Learn(best);
   return fix;
-}
-
-void LandmarkFinder::Learn(const LandmarkModel& model, std::span<const CameraView> views, const Pose& best,
-                           LandmarkFix& fix) const {
-  const Eigen::Isometry3d at = Lift(best.base_from_landmark);
-  PoseSolverOptions solver = options_.solver;
-  solver.find_suspect = false;
-  solver.learn = true;
-  const auto observations = Observations(model, best.association, views, at, false);
-  PoseSolution solution = SolvePose(model, Cameras(views), observations, at, solver);
-  if (solution.ok) fix.errors = std::move(solution.errors);
 }
 
 /// Finds a landmark that was seen before: the model is made as it was seen, and what is reported is of the
@@ -348,48 +211,25 @@ LandmarkFix LandmarkFinder::FindKnown(const LandmarkModel& model, const Landmark
   return fix;
 }
 
-/// The same landmark, broader by so much, all of it on one side.
-LandmarkModel WithSideAt(const LandmarkModel& model, int side, double out_m) {
-  LandmarkModel other = model;
-  const double by_m = side == kLeftSide ? out_m : -out_m;
-  for (LandmarkEdge& edge : other.edges) {
-    if (edge.side == side) edge.from.y() += by_m, edge.to.y() += by_m;
-    if (edge.side != 0) continue;
-    for (Eigen::Vector3d* end : {&edge.from, &edge.to})
-      if ((end->y() > 0) == (side == kLeftSide)) end->y() += by_m;
-  }
-  return other;
-}
-
-/// How much better than the model one fits of which either side is clearly elsewhere: another landmark of the
-/// same kind. In log odds; negative when the model fits better than all of these.
-double LandmarkFinder::OtherBreadth(const LandmarkModel& model, std::span<const CameraView> views,
-                                    const Pose& pose) const {
-  constexpr double kFrom_m = 0.04, kTo_m = 0.2, kStep_m = 0.01;
-  const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
+/// A landmark of the same kind explains the images as well.
+bool LandmarkFinder::IsOtherBreadth(const LandmarkModel& model, std::span<const CameraView> views,
+                                    const RefinedPose& pose) const {
   const LandmarkModel seen = Shifted(model, pose.solution.edge_shifts);
-  const std::vector<int> visible = VisibleAt(model, pose.base_from_landmark);
-  const double here = Associate(seen, visible, views, at, kProposed).log_odds;
-  double best = -1e9;
-  for (const int side : {kLeftSide, kRightSide})
-    for (double by_m = kFrom_m; by_m <= kTo_m; by_m += kStep_m)
-      for (const double out_m : {by_m, -by_m}) {
-        const double there = Associate(WithSideAt(seen, side, out_m), visible, views, at, kProposed).log_odds;
-        best = std::max(best, there - here);
-      }
-  return best;
+  return LeadOfOtherBreadth(seen, VisibleAt(model, pose.base_from_landmark), views,
+                            Lift(pose.base_from_landmark), kProposed) > -options_.min_lead_over_breadth;
 }
 
 double LandmarkFinder::RivalLogOdds(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search,
-                                    const std::vector<Pose>& poses, const Pose& best) const {
+                                    const std::vector<RefinedPose>& poses,
+                                    const RefinedPose& best) const {
   // Where the prediction is sharp, it has a say in which of two poses it is.
   const double weight = options_.IsSharp(search) ? 0.5 : 0;
-  const auto surprise = [&](const Pose& p) {
+  const auto surprise = [&](const RefinedPose& p) {
     return weight * SquaredDistance(p.base_from_landmark, prediction.base_from_landmark, search);
   };
   const Eigen::Matrix3d uncertainty = OnFloor(best.solution.covariance);
-  double rival = best.rival_log_odds;
-  for (const Pose& p : poses) {
+  double rival = -1e9;
+  for (const RefinedPose& p : poses) {
     if (!IsDistinct(p.base_from_landmark, best.base_from_landmark, options_)) continue;
     // One side alone leaves the heading open: what lies within that uncertainty is the same answer.
     if (SquaredDistance(p.base_from_landmark, best.base_from_landmark, uncertainty) < kSameAnswer) continue;
@@ -399,7 +239,7 @@ double LandmarkFinder::RivalLogOdds(const LandmarkPrediction& prediction, const 
 }
 
 void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search, int n_tested,
-                           std::size_t n_views, const Pose& best, LandmarkFix& fix) const {
+                           std::size_t n_views, const RefinedPose& best, LandmarkFix& fix) const {
   fix.base_from_landmark = best.base_from_landmark;
   fix.covariance = OnFloor(best.solution.covariance);
   fix.own_share = best.solution.own_share;
@@ -410,7 +250,6 @@ void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Ma
   fix.edge_shifts = best.solution.edge_shifts;
   fix.breadth = best.solution.breadth;
   fix.log_odds = best.association.log_odds;
-  fix.rival_log_odds = best.rival_log_odds;
   const double left = best.association.side_predicted_px[1], right = best.association.side_predicted_px[2];
   const double found_left = best.association.side_found_px[1],
                found_right = best.association.side_found_px[2];

@@ -8,11 +8,9 @@
 
 #include "head/core/camera/camera_model.hpp"
 #include "head/core/edges/edge_segment.hpp"
-#include "head/core/landmark/edge_association.hpp"
 #include "head/core/landmark/landmark.hpp"
-#include "head/core/landmark/model_errors.hpp"
 #include "head/core/landmark/pose_proposals.hpp"
-#include "head/core/landmark/pose_solver.hpp"
+#include "head/core/landmark/pose_refinement.hpp"
 #include "head/core/stereo/vertical_stereo.hpp"
 
 namespace priamos::head {
@@ -58,14 +56,12 @@ struct LandmarkFix {
 };
 
 /// Where a landmark is looked for, and what evidence a fix needs.
-struct LandmarkFixOptions {
+struct LandmarkFixOptions : RefinementOptions {
   double min_sigma_m = 0.02, min_sigma_rad = 0.01;  ///< added to the prediction's covariance
   double gate = 4;  ///< Mahalanobis distance from the prediction, 3 degrees of freedom
   double gate_elsewhere =
       7;                  ///< Mahalanobis distance up to which it is searched; beyond `gate` it is refused
   int min_predicted = 4;  ///< edges that must be predicted, all images together
-  int min_matched =
-      6;  ///< edges that must be found in two images together, and half as many more with a third
   int min_matched_sharp =
       4;  ///< and that many where the prediction is sharp: one jamb's, when the base is near
   double min_log_odds = 7;       ///< log odds wanted beyond the logarithm of the number of poses tried
@@ -78,17 +74,9 @@ struct LandmarkFixOptions {
   double min_lead = 6;  ///< log odds wanted over the best different pose
   double min_lead_over_breadth = 2;  ///< and over the same landmark with one side clearly elsewhere
   double max_residual_px = 1.2;
-  double max_misfit = 3;
-  double outlier_misfit = 6;  ///< an edge that fits worse (chi squared per degree of freedom: 0.01 to 0.2 %
-                              ///< of the right ones) is not the model's
-  double rough_edge_px = 0.15;  ///< so far shadow, blur and neighbours move an edge that is the model's: one
-                                ///< that misfits then is none, one that misfits when edges are sharp is not
-                                ///< measured by
-  int max_outliers = 3;         ///< largest number of edges that are taken out, and of those not measured by
   double distinct_m = 0.03, distinct_rad = 0.02;  ///< poses farther apart are different
   VerticalStereoOptions stereo;
   ProposalOptions proposals;
-  PoseSolverOptions solver;
 
   /// The prediction's covariance of (x, y, yaw), widened by the minimum sigmas [m, rad].
   Eigen::Matrix3d SearchCovariance(const LandmarkPrediction& prediction) const;
@@ -119,31 +107,16 @@ class LandmarkFinder {
   }
 
  private:
-  struct Pose;
-  struct Start;
   LandmarkFix FindKnown(const LandmarkModel& model, const LandmarkPrediction& prediction,
                         std::span<const CameraView> views, const ModelErrors& known) const;
-  void Learn(const LandmarkModel& model, std::span<const CameraView> views, const Pose& best,
-             LandmarkFix& fix) const;
-  bool Approach(const LandmarkModel& model, std::span<const CameraView> views, const AssociationOptions& gate,
-                bool coarse, Pose& pose) const;
-  void Refine(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const;
-  std::vector<Start> BestStarts(const LandmarkModel& model, std::span<const PoseProposal> proposals,
-                                std::span<const CameraView> views) const;
-  std::vector<Pose> RefineAll(const LandmarkModel& model, std::span<const CameraView> views,
-                              std::span<const Start> starts) const;
-  void MatchAgain(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const;
-  bool Solve(const LandmarkModel& model, std::span<const CameraView> views, double edge_sigma_px,
-             Pose& pose) const;
-  bool DropWrong(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const;
-  void Adjust(const LandmarkModel& model, std::span<const CameraView> views, Pose& pose) const;
-  bool SetAside(const LandmarkModel& model, std::span<const CameraView> views, double edge_sigma_px,
-                Pose& pose) const;
-  double OtherBreadth(const LandmarkModel& model, std::span<const CameraView> views, const Pose& pose) const;
+  std::vector<RefinedPose> BestStarts(const LandmarkModel& model, std::span<const PoseProposal> proposals,
+                                      std::span<const CameraView> views) const;
+  bool IsOtherBreadth(const LandmarkModel& model, std::span<const CameraView> views,
+                      const RefinedPose& pose) const;
   double RivalLogOdds(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search,
-                      const std::vector<Pose>& poses, const Pose& best) const;
+                      const std::vector<RefinedPose>& poses, const RefinedPose& best) const;
   void Judge(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search, int n_tested,
-             std::size_t n_views, const Pose& best, LandmarkFix& fix) const;
+             std::size_t n_views, const RefinedPose& best, LandmarkFix& fix) const;
 
   LandmarkFixOptions options_;
 };

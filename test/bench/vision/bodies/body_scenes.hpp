@@ -6,7 +6,7 @@
 
 #include "common/random.hpp"
 #include "head/core/camera/camera_model.hpp"
-#include "head/core/landmark/polyhedron.hpp"
+#include "head/core/bodies/polyhedron.hpp"
 
 namespace priamos::bench {
 

@@ -4,7 +4,7 @@
 
 #include "common/geometry.hpp"
 #include "head/core/edges/scale_edges.hpp"
-#include "head/core/landmark/free_model_fix.hpp"
+#include "head/core/bodies/free_model_fix.hpp"
 
 namespace priamos::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "head/core/landmark/free_model_fix.hpp"
+#include "head/core/bodies/free_model_fix.hpp"
 #include "test/bench/figures.hpp"
 
 namespace priamos::bench {

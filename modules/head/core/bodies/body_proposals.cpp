@@ -1,4 +1,4 @@
-#include "head/core/landmark/body_proposals.hpp"
+#include "head/core/bodies/body_proposals.hpp"
 
 #include <algorithm>
 #include <array>

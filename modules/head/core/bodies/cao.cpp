@@ -1,4 +1,4 @@
-#include "head/core/landmark/cao.hpp"
+#include "head/core/bodies/cao.hpp"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "common/outcome.hpp"
-#include "head/core/landmark/polyhedron.hpp"
-#include "head/core/landmark/triangle_mesh.hpp"
+#include "head/core/bodies/polyhedron.hpp"
+#include "head/core/bodies/triangle_mesh.hpp"
 
 namespace priamos::head {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "head/core/landmark/polyhedron.hpp"
+#include "head/core/bodies/polyhedron.hpp"
 #include "test/support/quad_scene.hpp"
 
 namespace priamos::test {

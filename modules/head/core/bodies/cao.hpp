@@ -4,7 +4,7 @@
 #include <string>
 
 #include "common/outcome.hpp"
-#include "head/core/landmark/polyhedron.hpp"
+#include "head/core/bodies/polyhedron.hpp"
 
 namespace priamos::head {
 

@@ -1,4 +1,4 @@
-#include "head/core/landmark/polyhedron.hpp"
+#include "head/core/bodies/polyhedron.hpp"
 
 #include <gmock/gmock.h>
 

@@ -3,9 +3,9 @@
 #include <Eigen/Geometry>
 #include <span>
 
-#include "head/core/landmark/body_proposals.hpp"
+#include "head/core/bodies/body_proposals.hpp"
 #include "head/core/landmark/landmark_fix.hpp"
-#include "head/core/landmark/polyhedron.hpp"
+#include "head/core/bodies/polyhedron.hpp"
 
 namespace priamos::head {
 

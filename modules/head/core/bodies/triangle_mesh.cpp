@@ -1,4 +1,4 @@
-#include "head/core/landmark/triangle_mesh.hpp"
+#include "head/core/bodies/triangle_mesh.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "head/core/landmark/body_tracker.hpp"
+#include "head/core/bodies/body_tracker.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "head/core/landmark/triangle_body.hpp"
+#include "head/core/bodies/triangle_body.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "head/core/landmark/free_model_fix.hpp"
+#include "head/core/bodies/free_model_fix.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>

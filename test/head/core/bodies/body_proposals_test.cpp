@@ -1,10 +1,10 @@
-#include "head/core/landmark/body_proposals.hpp"
+#include "head/core/bodies/body_proposals.hpp"
 
 #include <gtest/gtest.h>
 
 #include "head/core/edges/edge_segments.hpp"
-#include "head/core/landmark/polyhedron.hpp"
-#include "test/head/core/landmark/grey_cupboard.hpp"
+#include "head/core/bodies/polyhedron.hpp"
+#include "test/head/core/bodies/grey_cupboard.hpp"
 
 namespace priamos::head {
 namespace {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "head/core/landmark/free_model_fix.hpp"
+#include "head/core/bodies/free_model_fix.hpp"
 
 namespace priamos::head {
 

@@ -1,9 +1,9 @@
-#include "head/core/landmark/free_model_fix.hpp"
+#include "head/core/bodies/free_model_fix.hpp"
 
 #include <gtest/gtest.h>
 
 #include "head/core/edges/edge_segments.hpp"
-#include "test/head/core/landmark/grey_cupboard.hpp"
+#include "test/head/core/bodies/grey_cupboard.hpp"
 
 namespace priamos::head {
 namespace {
