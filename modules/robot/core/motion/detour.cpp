@@ -90,10 +90,6 @@ struct DetourSearch {
   double start_m;  ///< offset where it begins; between it and the path the base may be, to get back
 };
 
-bool MayLeave(const Leeway& leeway) {
-  return leeway.left_m > 0 || leeway.right_m > 0;
-}
-
 /// How far an offset is beyond the leeway.
 double OutsideOf(const Leeway& leeway, double offset_m) {
   return std::max({0.0, offset_m - leeway.left_m, -offset_m - leeway.right_m});
@@ -115,7 +111,7 @@ Lanes CostsAt(const DetourSearch& search, const Station& station) {
   }
   // Where the path may not be left it is planned to the centimetre: what is near stops the base, and does not
   // keep it off the path.
-  if (!MayLeave(station.leeway)) near[kMiddle] = 0;
+  if (!station.leeway.any()) near[kMiddle] = 0;
   for (int lane = 0; lane < kLanes; ++lane) {
     const double offset = OffsetOf(lane);
     double& cost = near[static_cast<std::size_t>(lane)];
@@ -210,7 +206,7 @@ std::vector<double> Backwards(const std::vector<Reached>& reached, int lane) {
 
 /// A base that has not left its path is on it: what it is off is an error, which the follower corrects.
 int StartLane(double offset_m, const Leeway& leeway, const Detour& last) {
-  if (!last.leaves() && (!MayLeave(leeway) || std::abs(offset_m) < kOnPath_m)) return kMiddle;
+  if (!last.leaves() && (!leeway.any() || std::abs(offset_m) < kOnPath_m)) return kMiddle;
   return kMiddle + std::clamp(static_cast<int>(std::lround(offset_m / kStep_m)), -kMiddle, kMiddle);
 }
 

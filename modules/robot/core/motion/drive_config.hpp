@@ -29,7 +29,8 @@ struct DriveConfig {
   MoverConfig movers;
   CollisionStopConfig collision;
   TouchConfig touch;
-  double operator_margin_m = 0.04;  ///< added to the margins of collision while an operator drives
+  double operator_margin_m =
+      0.04;  ///< added to the margins of collision where nobody plans to the centimetre
   AuthorityConfig authority;
   FailsafeConfig failsafe;
   double lost_position_m = 0.5;  ///< sigma of the position beyond which no path is driven

@@ -60,7 +60,7 @@ DriveController::DriveController(const DriveConfig& config, const MecanumGeometr
       floor_(config.floor),
       movers_(config.movers, config.footprint),
       collision_(config.collision, config.footprint),
-      operator_collision_(WithMargin(config.collision, config.operator_margin_m), config.footprint),
+      rough_collision_(WithMargin(config.collision, config.operator_margin_m), config.footprint),
       touch_(config.touch, config.footprint, geometry),
       authority_(config.authority),
       failsafe_(config.failsafe) {}
@@ -74,8 +74,7 @@ void DriveController::Reconfigure(const DriveConfig& config) {
   operator_slew_.set_limits(config.operator_acceleration);
   echoes_.Believe(config.echoes);
   collision_ = CollisionStop(config.collision, config_.footprint);
-  operator_collision_ =
-      CollisionStop(WithMargin(config.collision, config.operator_margin_m), config_.footprint);
+  rough_collision_ = CollisionStop(WithMargin(config.collision, config.operator_margin_m), config_.footprint);
 }
 
 /// The evidence is of what stays: somebody who has walked by is not to block the way for half a minute.
@@ -160,7 +159,7 @@ DriveController::Obstacles DriveController::Around(const Pose2& odom_from_base) 
     around.seen.insert(around.seen.end(), points.begin(), points.end());
   };
   around.placed = floor_.Points(odom_from_base);
-  if (state_.mode == DriveMode::kOperated) add(echoes_.Bridges(odom_from_base));
+  if (IsRough()) add(echoes_.Bridges(odom_from_base));
   if (InCorridor()) {
     const std::vector<Eigen::Vector2d> coming = movers_.Points(odom_from_base);
     around.placed.insert(around.placed.end(), coming.begin(), coming.end());
@@ -171,7 +170,12 @@ DriveController::Obstacles DriveController::Around(const Pose2& odom_from_base) 
 }
 
 const CollisionStop& DriveController::Guard() const {
-  return state_.mode == DriveMode::kOperated ? operator_collision_ : collision_;
+  return IsRough() ? rough_collision_ : collision_;
+}
+
+/// Whether nobody has planned this motion to the centimetre, and the walls that are heard do not lead it.
+bool DriveController::IsRough() const {
+  return state_.mode == DriveMode::kOperated || (follower_.MayLeaveLine() && !InCorridor());
 }
 
 bool DriveController::HasPathToGo() const {

@@ -115,6 +115,7 @@ class DriveController {
     std::vector<Eigen::Vector2d> placed{};
   };
   const CollisionStop& Guard() const;
+  bool IsRough() const;
   bool HasPathToGo() const;
   void DropPath();
   DriveSource Source(Time now) const;
@@ -150,7 +151,7 @@ class DriveController {
   EchoMemory echoes_;
   FloorMemory floor_;
   MoverWatch movers_;
-  CollisionStop collision_, operator_collision_;
+  CollisionStop collision_, rough_collision_;
   TouchWatch touch_;
   Authority authority_;
   Failsafe failsafe_;

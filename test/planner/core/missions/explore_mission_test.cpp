@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,18 @@ TEST(ExploreMissionTest, TheFloorIsExploredAndTheRobotStands) {
   s.robot.Step();
   for (int i = 0; i < 20; ++i) s.robot.Step();
   EXPECT_THAT(s.robot.paths.back().points, IsEmpty()) << "what is left of the path is not driven";
+}
+
+/// A line without leeway tells the robot that it is planned to the centimetre: no map is as good that is just
+/// being made.
+TEST(ExploreMissionTest, EachLineMayBeLeft) {
+  Story s;
+  s.Run(60);
+  ASSERT_THAT(s.robot.paths, Not(IsEmpty()));
+  for (const PathOrder& path : s.robot.paths) {
+    ASSERT_THAT(path.leeway, SizeIs(path.points.size()));
+    for (const Leeway& leeway : path.leeway) EXPECT_GE(std::min(leeway.left_m, leeway.right_m), 0.1);
+  }
 }
 
 TEST(ExploreMissionTest, BeforeThePoseIsKnownNothingIsSent) {
