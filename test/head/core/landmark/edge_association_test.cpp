@@ -111,6 +111,17 @@ TEST_F(EdgeAssociationTest, ACornerNeedsBothEdges) {
   EXPECT_TRUE(Look().corners.empty());
 }
 
+TEST_F(EdgeAssociationTest, WhatIsSetAsideIsEvidenceAndNotMeasuredBy) {
+  Draw(0, 0, 0, 100, 180);
+  Draw(1, 0, 0, 100, 180);
+  Association dut = Look();
+  const double before = dut.log_odds;
+  EXPECT_EQ(dut.Measuring(), 2);
+  dut.SetAside(1, -1);
+  EXPECT_EQ(dut.Measuring(), 1);
+  EXPECT_EQ(dut.log_odds, before);
+}
+
 TEST_F(EdgeAssociationTest, AnEdgeTakenBackTakesItsCornersAlong) {
   Draw(0, 0, 0, 100, 180);
   const double without = Look().log_odds;

@@ -41,6 +41,20 @@ TEST(ModelErrors, EdgesOfABroaderLandmarkLieFartherToTheirSides) {
   EXPECT_TRUE(Shifted(model, shifts).edges[0].to.isApprox(Eigen::Vector3d(0.002, 0.005, 2)));
 }
 
+TEST(ModelErrors, AHigherLandmarkLiftsAllThatIsLevelByItsShare) {
+  LandmarkModel model = ThreeEdges();  // 2 m high
+  model.edges.push_back({{0, -1, 2}, {0, 1, 2}});
+  model.edges.push_back({{0, -1, 1}, {0, 1, 1}});
+  ModelVariance before = kBefore;
+  before.height_m2 = 16e-6;
+  const Eigen::MatrixXd dut = before.CovarianceFor(model);
+  EXPECT_NEAR(dut(11, 11), kBefore.edge_m2 + 16e-6, 1e-12);
+  EXPECT_NEAR(dut(11, 14), 8e-6, 1e-12);
+  EXPECT_NEAR(dut(14, 14), kBefore.edge_m2 + 4e-6, 1e-12);
+  EXPECT_EQ(dut(2, 11), 0) << "uprights only become longer";
+  EXPECT_EQ(dut(9, 12), 0);
+}
+
 TEST(ModelErrors, ALeafMayHaveBeenMovedAndTheRestStays) {
   const LandmarkModel model = ThreeEdges();
   const ModelErrors known = Known(model, 0.001), dut = CarriedOver(known, model, kBefore);
