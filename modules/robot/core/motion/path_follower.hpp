@@ -77,6 +77,7 @@ class PathFollower {
  private:
   bool IsAtGoal(const Pose2& pose) const;
   void MoveReference(const Pose2& pose, double dt_s);
+  double PaceAt(double s) const;
   PathShape::Point ReferenceAt(double s) const;
   PathPlace PlaceOf(const Pose2& pose) const;
   Wanted Report(const Pose2& pose, const PathShape::Point& reference) const;
