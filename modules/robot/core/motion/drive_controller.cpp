@@ -173,9 +173,10 @@ const CollisionStop& DriveController::Guard() const {
   return IsRough() ? rough_collision_ : collision_;
 }
 
-/// Whether nobody has planned this motion to the centimetre, and the walls that are heard do not lead it.
+/// Whether nobody has planned this motion to the centimetre though things may be near, and the walls that are
+/// heard do not lead it.
 bool DriveController::IsRough() const {
-  return state_.mode == DriveMode::kOperated || (follower_.MayLeaveLine() && !InCorridor());
+  return state_.mode == DriveMode::kOperated || (follower_.MayLeaveLineALittle() && !InCorridor());
 }
 
 bool DriveController::HasPathToGo() const {

@@ -123,21 +123,11 @@ bool PathFollower::IsAtGoal(const Pose2& pose) const {
 }
 
 void PathFollower::MoveReference(const Pose2& pose, double dt_s) {
-  // At the point of a sharp reversal, and on a detour around the middle of a bend, the base hardly moves: its
-  // pose does not show how far it has got.
+  const PathShape::Point at = shape_->At(s_);
+  const double pace = std::hypot(at.direction.norm(), PathShape::kTurnLever * at.turn);
+  // At the point of a sharp reversal the base hardly moves, so its pose does not show how far it has got.
   constexpr double kMeasurablePace = 0.4;
-  s_ = PaceAt(s_) < kMeasurablePace ? std::min(s_ + speed_ * dt_s, shape_->length())
-                                    : shape_->Project(pose, s_);
-}
-
-/// How far the base moves, turning included, for each metre of the path.
-double PathFollower::PaceAt(double s) const {
-  constexpr double kStep_m = 0.02;
-  const double turn = PathShape::kTurnLever * shape_->At(s).turn;
-  if (!detour_.leaves()) return std::hypot(shape_->At(s).direction.norm(), turn);
-  const Eigen::Vector2d step =
-      ReferenceAt(s + kStep_m).pose.translation() - ReferenceAt(s).pose.translation();
-  return std::hypot(step.norm() / kStep_m, turn);
+  s_ = pace < kMeasurablePace ? std::min(s_ + speed_ * dt_s, shape_->length()) : shape_->Project(pose, s_);
 }
 
 /// The point of the path, or of the detour beside it, where the base should be.

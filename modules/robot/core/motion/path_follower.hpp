@@ -63,8 +63,8 @@ class PathFollower {
   /// Drops the path; Step then returns a velocity of 0.
   void Drop();
   bool has_path() const { return shape_.has_value(); }
-  /// Whether the line that is being driven may be left: one that may not is planned to the centimetre.
-  bool MayLeaveLine() const { return shape_ && shape_->LeewayAt(s_).any(); }
+  /// Whether the line that is being driven may be left by a little: Leeway::little.
+  bool MayLeaveLineALittle() const { return shape_ && shape_->LeewayAt(s_).little(); }
   /// Distance left from beside `pose` to the end of the path, which is being driven.
   double RemainingFrom(const Pose2& pose) const {
     return shape_->RemainingDistance(shape_->Project(pose, s_));
@@ -77,7 +77,6 @@ class PathFollower {
  private:
   bool IsAtGoal(const Pose2& pose) const;
   void MoveReference(const Pose2& pose, double dt_s);
-  double PaceAt(double s) const;
   PathShape::Point ReferenceAt(double s) const;
   PathPlace PlaceOf(const Pose2& pose) const;
   Wanted Report(const Pose2& pose, const PathShape::Point& reference) const;
