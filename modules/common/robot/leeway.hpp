@@ -10,7 +10,8 @@ struct Leeway {
 
   /// Whether the line may be left at all: one that may not is planned to the centimetre.
   bool any() const { return left_m > 0 || right_m > 0; }
-  /// Whether it may be left by a little to either side: things are near, and nobody planned to the centimetre.
+  /// Whether it may be left by a little to either side: things are near, and nobody planned to the
+  /// centimetre.
   bool little() const {
     constexpr double kLittle_m = 0.15;
     const double least_m = std::min(left_m, right_m);

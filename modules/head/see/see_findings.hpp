@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "head/core/bodies/free_model_fix.hpp"
 #include "head/core/contours/contour_graph.hpp"
 #include "head/core/doors/door_detection.hpp"
 #include "head/core/edges/edge_segments.hpp"
-#include "head/core/bodies/free_model_fix.hpp"
 #include "head/core/stereo/edge_stereo.hpp"
 #include "head/see/see_options.hpp"
 

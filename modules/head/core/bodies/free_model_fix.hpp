@@ -4,8 +4,8 @@
 #include <span>
 
 #include "head/core/bodies/body_proposals.hpp"
-#include "head/core/landmark/landmark_fix.hpp"
 #include "head/core/bodies/polyhedron.hpp"
+#include "head/core/landmark/landmark_fix.hpp"
 
 namespace priamos::head {
 

@@ -183,14 +183,14 @@ LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPredi
   std::vector<RefinedPose> poses = RefineAll(BestStarts(model, proposals.poses, views), refinement);
   fix.verdict = Verdict::kTooFewEdges;
   if (poses.empty()) return fix;
-  RefinedPose& best = *std::max_element(poses.begin(), poses.end(), [](const auto& a, const auto& b) {
-    return a.LogOdds() < b.LogOdds();
-  });
+  RefinedPose& best = *std::max_element(
+      poses.begin(), poses.end(), [](const auto& a, const auto& b) { return a.LogOdds() < b.LogOdds(); });
   // Outliers bent the pose from which its edges were looked for.
   if (RefinedPose again = best; refinement.MatchAgain(again), again.solution.ok) best = std::move(again);
   fix.rival_log_odds = RivalLogOdds(prediction, search, poses, best);
   Judge(prediction, search, static_cast<int>(proposals.poses.size()), views.size(), best, fix);
-  if (fix.verdict == Verdict::kFound && !options_.IsSharp(search) && IsOtherBreadth(model, views, best))
+  const bool may_be_another = !options_.IsSharp(search) && !IsNearlyAll(best.association);
+  if (fix.verdict == Verdict::kFound && may_be_another && IsOtherBreadth(model, views, best))
     fix.verdict = Verdict::kResidualTooLarge;
   if (fix.verdict == Verdict::kFound) fix.errors = refinement.Learn(best);
   return fix;
@@ -211,6 +211,10 @@ LandmarkFix LandmarkFinder::FindKnown(const LandmarkModel& model, const Landmark
   return fix;
 }
 
+bool LandmarkFinder::IsNearlyAll(const Association& association) const {
+  return association.log_odds >= options_.nearly_all * association.best_log_odds;
+}
+
 /// A landmark of the same kind explains the images as well.
 bool LandmarkFinder::IsOtherBreadth(const LandmarkModel& model, std::span<const CameraView> views,
                                     const RefinedPose& pose) const {
@@ -220,8 +224,7 @@ bool LandmarkFinder::IsOtherBreadth(const LandmarkModel& model, std::span<const 
 }
 
 double LandmarkFinder::RivalLogOdds(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search,
-                                    const std::vector<RefinedPose>& poses,
-                                    const RefinedPose& best) const {
+                                    const std::vector<RefinedPose>& poses, const RefinedPose& best) const {
   // Where the prediction is sharp, it has a say in which of two poses it is.
   const double weight = options_.IsSharp(search) ? 0.5 : 0;
   const auto surprise = [&](const RefinedPose& p) {
@@ -261,9 +264,12 @@ void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Ma
   const bool may_miss = options_.IsSharp(search);
   const double wanted = options_.min_log_odds + std::log(std::max(n_tested, 1)) +
                         ((one_sided && !may_miss) || side_missing ? options_.one_sided_log_odds : 0);
+  const bool too_little_of_it =
+      !may_miss && !IsNearlyAll(best.association) && best.association.best_log_odds < options_.few_log_odds;
   const int least = may_miss ? options_.min_matched_sharp : options_.min_matched;
   if (fix.n_matched < least * static_cast<int>(n_views) / 2 || fix.log_odds < wanted ||
-      (side_missing && !may_miss) || fix.log_odds < options_.min_share * best.association.best_log_odds) {
+      (side_missing && !may_miss) || too_little_of_it ||
+      fix.log_odds < options_.min_share * best.association.best_log_odds) {
     fix.verdict = Verdict::kTooFewEdges;
   } else if (fix.rival_log_odds > fix.log_odds - options_.min_lead) {
     fix.verdict = Verdict::kAmbiguous;

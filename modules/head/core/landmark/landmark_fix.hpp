@@ -64,14 +64,17 @@ struct LandmarkFixOptions : RefinementOptions {
   int min_predicted = 4;  ///< edges that must be predicted, all images together
   int min_matched_sharp =
       4;  ///< and that many where the prediction is sharp: one jamb's, when the base is near
-  double min_log_odds = 7;       ///< log odds wanted beyond the logarithm of the number of poses tried
-  double min_share = 0.4;        ///< share of the log odds that a perfect match would give
+  double min_log_odds = 7;  ///< log odds wanted beyond the logarithm of the number of poses tried
+  double min_share = 0.4;   ///< share of the log odds that a perfect match would give
+  /// A landmark that would give no more log odds than few_log_odds is soon taken for something else: this
+  /// share of them must be found. Of others less will do, with a lead over landmarks of their kind.
+  double nearly_all = 0.85, few_log_odds = 40;
   double min_side_share = 0.1;  ///< least side_share of a fix
   double sharp_m =
       0.08;  ///< a prediction with a smaller sigma of the place leaves no room for another landmark
   double one_sided_log_odds =
       5;  ///< log odds wanted in addition if only one side is in view: it could be another landmark's
-  double min_lead = 6;  ///< log odds wanted over the best different pose
+  double min_lead = 6;               ///< log odds wanted over the best different pose
   double min_lead_over_breadth = 2;  ///< and over the same landmark with one side clearly elsewhere
   double max_residual_px = 1.2;
   double distinct_m = 0.03, distinct_rad = 0.02;  ///< poses farther apart are different
@@ -111,6 +114,7 @@ class LandmarkFinder {
                         std::span<const CameraView> views, const ModelErrors& known) const;
   std::vector<RefinedPose> BestStarts(const LandmarkModel& model, std::span<const PoseProposal> proposals,
                                       std::span<const CameraView> views) const;
+  bool IsNearlyAll(const Association& association) const;
   bool IsOtherBreadth(const LandmarkModel& model, std::span<const CameraView> views,
                       const RefinedPose& pose) const;
   double RivalLogOdds(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search,

@@ -36,8 +36,8 @@ EdgeShifts ShiftsOf(const LandmarkModel& model, const Eigen::VectorXd& errors);
 /// The model with its edges shifted.
 LandmarkModel Shifted(LandmarkModel model, const EdgeShifts& shifts);
 
-/// Variances of the errors that models have before any look: of each edge by itself, of one that moves, of the
-/// breadth and of the height, which lifts all that is level by its share of it.
+/// Variances of the errors that models have before any look: of each edge by itself, of one that moves, of
+/// the breadth and of the height, which lifts all that is level by its share of it.
 struct ModelVariance {
   double edge_m2 = 0, movable_m2 = 0, breadth_m2 = 0, height_m2 = 0;
 

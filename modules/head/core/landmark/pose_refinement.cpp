@@ -82,8 +82,8 @@ PoseSolution PoseRefinement::SolutionOf(const RefinedPose& pose, bool coarse,
   return SolvePose(model_, cameras, Observations(model_, pose.association, views_, at, coarse), at, solver);
 }
 
-/// Removes edges of something else: an image edge beside the right one can lie within the gate, and be farther
-/// off than shadow and blur put an edge when all others agree on the pose.
+/// Removes edges of something else: an image edge beside the right one can lie within the gate, and be
+/// farther off than shadow and blur put an edge when all others agree on the pose.
 bool PoseRefinement::DropWrong(RefinedPose& pose) const {
   for (int dropped = 0;; ++dropped) {
     if (!Solve(options_.rough_edge_px, pose)) return false;
@@ -94,8 +94,8 @@ bool PoseRefinement::DropWrong(RefinedPose& pose) const {
   }
 }
 
-/// Measures by edges as sharp as they should be, without the few that shadow or blur has moved; where most are
-/// moved, edges are as unsharp as they show themselves.
+/// Measures by edges as sharp as they should be, without the few that shadow or blur has moved; where most
+/// are moved, edges are as unsharp as they show themselves.
 void PoseRefinement::Adjust(RefinedPose& pose) const {
   if (pose.solution.misfit > options_.max_misfit) return;
   const RefinedPose rough = pose;

@@ -16,9 +16,9 @@ struct RefinementOptions {
   double max_misfit = 3;
   double outlier_misfit = 6;    ///< an edge that fits worse (chi squared per degree of freedom: 0.01 to 0.2 %
                                 ///< of the right ones) is an outlier
-  double rough_edge_px = 0.15;  ///< so far shadow, blur and neighbours move an edge of the model (1 sigma): an
-                                ///< outlier by this is none, one by sharp edges only is not measured by
-  int max_outliers = 3;         ///< largest number of edges that are taken out, and of those not measured by
+  double rough_edge_px = 0.15;  ///< so far shadow, blur and neighbours move an edge of the model (1 sigma):
+                                ///< an outlier by this is none, one by sharp edges only is not measured by
+  int max_outliers = 3;  ///< largest number of edges that are taken out, and of those not measured by
   PoseSolverOptions solver;
 };
 

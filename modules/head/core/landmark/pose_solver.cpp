@@ -109,8 +109,7 @@ class Problem {
                           in_b = pose_.linear().transpose() * b.across;
     return in_a.dot(known.block<3, 3>(3 * a.edge, 3 * b.edge) * in_b) +
            in_a.dot(known.block<3, 1>(3 * a.edge, last)) * ByBreadth(b) +
-           in_b.dot(known.block<3, 1>(3 * b.edge, last)) * ByBreadth(a) +
-           by_breadth;
+           in_b.dot(known.block<3, 1>(3 * b.edge, last)) * ByBreadth(a) + by_breadth;
   }
 
   /// How a residual grows with the breadth of the landmark, whose sides lie half of it beside the middle.
@@ -131,9 +130,7 @@ class Problem {
   }
 
   /// `matrix` times the covariance of the errors of the model before this look.
-  Eigen::MatrixXd TimesPrior(const Eigen::MatrixXd& matrix) const {
-    return matrix * model_covariance_;
-  }
+  Eigen::MatrixXd TimesPrior(const Eigen::MatrixXd& matrix) const { return matrix * model_covariance_; }
 
   /// The errors of the model under the condition of the residuals. What only who learns them needs takes
   /// longest.

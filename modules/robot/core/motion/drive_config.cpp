@@ -9,7 +9,8 @@ void DriveConfig::Describe(Archive& a) {
            {"deg", 1, 90, "no path is driven by a pose with a larger sigma of the heading"});
   a.Number("blocked_s", blocked_s, {"s", 0, 60, "standing before an obstacle for this long is BLOCKED"});
   a.Number("operator_margin_m", operator_margin_m,
-           {"m", 0, 0.5, "added to the margins of collision for an operator, and where a line may be left by little"});
+           {"m", 0, 0.5,
+            "added to the margins of collision for an operator, and where a line may be left by little"});
   a.Number("fix_needed_m", fix_needed_m, {"m", 0.01, 5, "a silent head matters when sigma is larger"});
   a.Section("footprint", footprint, "the body of the base");
   a.Section("follower", follower, "how a path is driven");

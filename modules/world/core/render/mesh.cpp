@@ -20,7 +20,7 @@ constexpr double kInset_m = 0.08;
 constexpr std::array kContact_m{0.003, 0.008, 0.016, 0.03, kInset_m};
 /// A border is shaded when it lacks this share of the light that is kInset_m away from it.
 constexpr double kShade = 0.05;
-constexpr double kLook_m = 0.05;  ///< along a border it is looked at so often
+constexpr double kLook_m = 0.05;      ///< along a border it is looked at so often
 constexpr float kBlackLight = 0.03F;  // of the reference body ...
 constexpr float kDiscLight = 0.08F;   // ... and its discs, but for the lamp beside the lens
 constexpr int kDiscCorners = 96;
@@ -117,8 +117,8 @@ std::pair<Side, Side> SidesOf(const Face& face, const Lighting& lighting) {
   Side a{Start(face.origin, face.along), face.along.norm()}, b{Start(face.origin, face.up), face.up.norm()};
   const auto look = [](Side& side, Side& along, const auto& light) {
     const double border = side.Share(kContact_m[0]), beside = side.Share(kInset_m);
-    side.dark_begin = FindShade(
-        [&](double at) { return light(border, at) < (1 - kShade) * light(beside, at); }, along);
+    side.dark_begin =
+        FindShade([&](double at) { return light(border, at) < (1 - kShade) * light(beside, at); }, along);
     side.dark_end = FindShade(
         [&](double at) { return light(1 - border, at) < (1 - kShade) * light(1 - beside, at); }, along);
   };

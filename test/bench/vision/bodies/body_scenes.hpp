@@ -5,8 +5,8 @@
 #include <string>
 
 #include "common/random.hpp"
-#include "head/core/camera/camera_model.hpp"
 #include "head/core/bodies/polyhedron.hpp"
+#include "head/core/camera/camera_model.hpp"
 
 namespace priamos::bench {
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "common/geometry.hpp"
-#include "head/core/edges/scale_edges.hpp"
 #include "head/core/bodies/free_model_fix.hpp"
+#include "head/core/edges/scale_edges.hpp"
 
 namespace priamos::bench {
 namespace {

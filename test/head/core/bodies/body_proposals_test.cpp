@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "head/core/edges/edge_segments.hpp"
 #include "head/core/bodies/polyhedron.hpp"
+#include "head/core/edges/edge_segments.hpp"
 #include "test/head/core/bodies/grey_cupboard.hpp"
 
 namespace priamos::head {

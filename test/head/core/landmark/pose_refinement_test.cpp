@@ -38,15 +38,15 @@ class PoseRefinementTest : public testing::Test {
     for (EdgeSegment& s : edges_[camera].segments) {
       if (std::abs(seen->normal().dot(s.centre - seen->p)) > 1.5 || s.length_px() < 40) continue;
       for (Eigen::Vector2d* p : {&s.begin, &s.end, &s.centre}) *p += by_px * seen->normal();
-      for (int i = 0; i < s.n_points; ++i) edges_[camera].points[s.first_point + i].at += by_px * seen->normal();
+      for (int i = 0; i < s.n_points; ++i)
+        edges_[camera].points[s.first_point + i].at += by_px * seen->normal();
     }
   }
 
   static const EdgeMatch* MatchOf(const RefinedPose& pose, int edge, int camera) {
     const auto& matches = pose.association.matches;
-    const auto found = std::find_if(matches.begin(), matches.end(), [&](const EdgeMatch& m) {
-      return m.edge == edge && m.camera == camera;
-    });
+    const auto found = std::find_if(matches.begin(), matches.end(),
+                                    [&](const EdgeMatch& m) { return m.edge == edge && m.camera == camera; });
     return found == matches.end() ? nullptr : &*found;
   }
 

@@ -10,11 +10,11 @@ namespace {
 
 constexpr double kFrameTop_m = 2.06, kProud_m = 0.015;
 
-/// A wall along y from 0 to 3 m, its front at x = -0.07, and beside its end at y = 0 a jamb that stands before
-/// it.
-const std::vector<Solid> kWallAndJamb = {{"wall", {0, 1.5, 0}, {0.14, 3}, 0, 2.8, "plaster"},
-                                         {"jamb", {0, -0.03, 0}, {0.14 + 2 * kProud_m, 0.06}, 0, kFrameTop_m,
-                                          "door_frame"}};
+/// A wall along y from 0 to 3 m, its front at x = -0.07, and beside its end at y = 0 a jamb that stands
+/// before it.
+const std::vector<Solid> kWallAndJamb = {
+    {"wall", {0, 1.5, 0}, {0.14, 3}, 0, 2.8, "plaster"},
+    {"jamb", {0, -0.03, 0}, {0.14 + 2 * kProud_m, 0.06}, 0, kFrameTop_m, "door_frame"}};
 
 SceneConfig Ambient() {
   SceneConfig config;
