@@ -13,8 +13,6 @@
 namespace priamos::head {
 namespace {
 
-/// How near to a proposed pose edges are looked for.
-constexpr AssociationOptions kProposed{.sigma_px = 2.0, .gate_px = 5.0, .max_angle_rad = 0.06};
 constexpr int kRefineBest = 8;
 constexpr double kSameAnswer = 9;  ///< squared Mahalanobis distance, 3 degrees of freedom
 

@@ -8,8 +8,7 @@
 namespace priamos::head {
 namespace {
 
-/// Gates of the passes.
-constexpr AssociationOptions kProposed{.sigma_px = 2.0, .gate_px = 5.0, .max_angle_rad = 0.06};
+/// Gates of the later passes.
 constexpr AssociationOptions kApproached{.sigma_px = 1.0, .gate_px = 3.0, .max_angle_rad = 0.04};
 constexpr AssociationOptions kRefined{.sigma_px = 0.5, .gate_px = 1.6, .max_angle_rad = 0.03};
 

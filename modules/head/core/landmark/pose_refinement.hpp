@@ -18,7 +18,7 @@ struct RefinementOptions {
                                 ///< of the right ones) is an outlier
   double rough_edge_px = 0.15;  ///< so far shadow, blur and neighbours move an edge of the model (1 sigma):
                                 ///< an outlier by this is none, one by sharp edges only is not measured by
-  int max_outliers = 3;  ///< largest number of edges that are taken out, and of those not measured by
+  int max_outliers = 3;         ///< largest number of edges that are taken out, and of those not measured by
   PoseSolverOptions solver;
 };
 
@@ -34,6 +34,9 @@ struct RefinedPose {
   /// when every edge may be where it is found.
   double LogOdds() const { return association.log_odds - sharp_chi_squared / 2; }
 };
+
+/// How near to a proposed pose edges are looked for: the gate of the first pass.
+inline constexpr AssociationOptions kProposed{.sigma_px = 2.0, .gate_px = 5.0, .max_angle_rad = 0.06};
 
 /// The edges of a model that a viewer sees at that pose, or just would, `margin_rad` farther on.
 std::vector<int> VisibleAt(const LandmarkModel& model, const Pose2& base_from_landmark,

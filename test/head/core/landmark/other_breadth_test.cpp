@@ -11,8 +11,6 @@
 namespace priamos::head {
 namespace {
 
-constexpr AssociationOptions kGate{.sigma_px = 2.0, .gate_px = 5.0, .max_angle_rad = 0.06};
-
 /// The lead over the model of a door of 90 cm when a door of that width is seen, its right side where that of
 /// the model is.
 double LeadWhenWide(double width_m) {
@@ -25,7 +23,7 @@ double LeadWhenWide(double width_m) {
   op.Extract(test::RenderQuads(test::DoorQuads(width_m), Lift(seen_at), left, 3, rng, 60), edges[0]);
   op.Extract(test::RenderQuads(test::DoorQuads(width_m), Lift(seen_at), right, 3, rng, 60), edges[1]);
   const std::array<CameraView, 2> views{MakeView(left, edges[0]), MakeView(right, edges[1])};
-  return LeadOfOtherBreadth(model, VisibleAt(model, at), views, Lift(at), kGate);
+  return LeadOfOtherBreadth(model, VisibleAt(model, at), views, Lift(at), kProposed);
 }
 
 TEST(OtherBreadth, TheModelOfWhatIsSeenLeadsByFar) {
