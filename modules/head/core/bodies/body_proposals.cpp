@@ -185,6 +185,7 @@ std::vector<Eigen::Isometry3d> ProposeBodyPoses(const LandmarkModel& seen, const
   }
   KeepDifferent(candidates, 0.15, options.n_best);
   std::vector<Eigen::Isometry3d> poses;
+  poses.reserve(candidates.size());
   for (const Candidate& c : candidates) poses.push_back(motions.At(c.motion));
   return poses;
 }

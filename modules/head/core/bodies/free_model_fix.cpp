@@ -254,6 +254,7 @@ void SortByOdds(std::vector<State>& states) {
 /// The poses after all passes, best first; those that lost too many edges are dropped.
 std::vector<State> RefineAll(const FreeSearch& search, const std::vector<Eigen::Isometry3d>& poses) {
   std::vector<State> states;
+  states.reserve(poses.size());
   for (const Eigen::Isometry3d& pose : poses) states.push_back({pose});
   for (const Pass& pass : kPasses) {
     if (static_cast<int>(states.size()) > pass.n_poses) states.resize(pass.n_poses);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ranges>
 #include <utility>
 
 #include "head/core/landmark/other_breadth.hpp"
@@ -13,7 +12,7 @@
 namespace priamos::head {
 namespace {
 
-constexpr int kRefineBest = 8;
+constexpr std::size_t kRefineBest = 8;
 constexpr double kSameAnswer = 9;  ///< squared Mahalanobis distance, 3 degrees of freedom
 
 Eigen::Matrix3d OnFloor(const Eigen::Matrix<double, 6, 6>& covariance) {
@@ -144,8 +143,10 @@ std::vector<RefinedPose> LandmarkFinder::BestStarts(const LandmarkModel& model,
     if (breadth_sigma_m > 0) suppose(ShiftsOfBreadth(model, sigmas * breadth_sigma_m), -sigmas * sigmas / 2);
   std::stable_sort(starts.begin(), starts.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
+  if (starts.size() > kRefineBest) starts.resize(kRefineBest);
   std::vector<RefinedPose> best;
-  for (auto& start : starts | std::views::take(kRefineBest)) best.push_back(std::move(start.second));
+  best.reserve(starts.size());
+  for (auto& start : starts) best.push_back(std::move(start.second));
   return best;
 }
 

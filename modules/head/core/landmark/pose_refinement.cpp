@@ -36,9 +36,7 @@ void PoseRefinement::Refine(RefinedPose& pose) const {
 }
 
 void PoseRefinement::MatchAgain(RefinedPose& pose) const {
-  const Eigen::Isometry3d at = Lift(pose.base_from_landmark);
-  pose.association = Associate(Shifted(model_, pose.solution.edge_shifts),
-                               VisibleAt(model_, pose.base_from_landmark), views_, at, kRefined);
+  Match(kRefined, pose);
   if (!Solve(options_.solver.edge_sigma_px, pose)) return;
   pose.sharp_chi_squared = pose.solution.chi_squared;
   const bool fits = pose.solution.suspect.misfit < options_.outlier_misfit;
@@ -54,10 +52,14 @@ ModelErrors PoseRefinement::Learn(const RefinedPose& pose) const {
   return solution.ok ? std::move(solution.errors) : ModelErrors{};
 }
 
-bool PoseRefinement::Pass(const AssociationOptions& gate, bool coarse, RefinedPose& pose) const {
+void PoseRefinement::Match(const AssociationOptions& gate, RefinedPose& pose) const {
   const LandmarkModel seen = Shifted(model_, pose.solution.edge_shifts);
   pose.association = Associate(seen, VisibleAt(model_, pose.base_from_landmark), views_,
                                Lift(pose.base_from_landmark), gate);
+}
+
+bool PoseRefinement::Pass(const AssociationOptions& gate, bool coarse, RefinedPose& pose) const {
+  Match(gate, pose);
   PoseSolverOptions solver = options_.solver;
   solver.find_suspect = false;
   pose.solution = SolutionOf(pose, coarse, solver);

@@ -61,6 +61,7 @@ class PoseRefinement {
   ModelErrors Learn(const RefinedPose& pose) const;
 
  private:
+  void Match(const AssociationOptions& gate, RefinedPose& pose) const;
   bool Pass(const AssociationOptions& gate, bool coarse, RefinedPose& pose) const;
   bool Solve(double edge_sigma_px, RefinedPose& pose) const;
   bool DropWrong(RefinedPose& pose) const;

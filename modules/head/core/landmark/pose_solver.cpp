@@ -21,6 +21,11 @@ Matrix6 SquareRoot(const Matrix6& c) {
   return ellipsoid.axes * ellipsoid.values.cwiseMax(0).cwiseSqrt().asDiagonal();
 }
 
+/// Where the errors of an edge begin in ModelErrors.
+Eigen::Index ColumnOf(int edge) {
+  return Eigen::Index{3} * edge;
+}
+
 /// A residual with the error that all cameras share, in standard deviations.
 struct Row : EdgeResidual {
   Vector6 by_common = Vector6::Zero();
@@ -107,9 +112,9 @@ class Problem {
     if (!options_.known && a.edge != b.edge && !both_level) return by_breadth;
     const Eigen::Vector3d in_a = pose_.linear().transpose() * a.across,
                           in_b = pose_.linear().transpose() * b.across;
-    return in_a.dot(known.block<3, 3>(3 * a.edge, 3 * b.edge) * in_b) +
-           in_a.dot(known.block<3, 1>(3 * a.edge, last)) * ByBreadth(b) +
-           in_b.dot(known.block<3, 1>(3 * b.edge, last)) * ByBreadth(a) + by_breadth;
+    return in_a.dot(known.block<3, 3>(ColumnOf(a.edge), ColumnOf(b.edge)) * in_b) +
+           in_a.dot(known.block<3, 1>(ColumnOf(a.edge), last)) * ByBreadth(b) +
+           in_b.dot(known.block<3, 1>(ColumnOf(b.edge), last)) * ByBreadth(a) + by_breadth;
   }
 
   /// How a residual grows with the breadth of the landmark, whose sides lie half of it beside the middle.
@@ -123,7 +128,7 @@ class Problem {
     for (std::size_t i = 0; i < residuals_.size(); ++i) {
       const Row& row = residuals_[i];
       const auto at = static_cast<Eigen::Index>(i);
-      by.block<1, 3>(at, 3 * row.edge) = row.across.transpose() * pose_.linear();
+      by.block<1, 3>(at, ColumnOf(row.edge)) = row.across.transpose() * pose_.linear();
       by(at, by.cols() - 1) = ByBreadth(row);
     }
     return by;
