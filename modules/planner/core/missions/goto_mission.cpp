@@ -21,6 +21,9 @@ void GotoMissionConfig::Describe(Archive& a) {
   a.Integer("retries", retries, {"-", 0, 20, "other ways that are tried after something was in the way"});
   a.Number("stands_s", stands_s,
            {"s", 1, 600, "a robot that holds on its way for so long fails the mission"});
+  a.Number("idle_s", idle_s, {"s", 1, 600, "a robot that comes no further for so long is blocked"});
+  a.Integer("waits", waits, {"-", 0, 100, "times that it waits where there is no other way"});
+  a.Number("wait_s", wait_s, {"s", 0.5, 600, "how long it waits for what is in the way to go away"});
   a.Number("thing_m", thing_m, {"m", 0.1, 3, "size that something in the way is taken to have"});
   limits.Describe(a);
   a.Section("route", route, "the way through the room");
@@ -35,8 +38,10 @@ GotoMission::GotoMission(const GotoMissionConfig& config, const Footprint& footp
 
 std::optional<Refusal> GotoMission::Start(const MissionOrder& order) {
   goal_ = order.goal;
-  departures_ = 0;
+  departures_ = waits_ = 0;
+  waits_since_.reset();
   stands_.Reset();
+  idles_.Reset();
   planner_.Forget();
   keeper_.Reset();
   learned_.reset();
@@ -49,6 +54,7 @@ std::optional<Refusal> GotoMission::Start(const MissionOrder& order) {
 void GotoMission::Step(MissionControl& control) {
   const Heard& heard = control.heard();
   if (control.state().phase == Phase::kWaiting) {
+    if (waits_since_ && control.now() - *waits_since_ < FromSeconds(config_.wait_s)) return;
     if (heard.link_up && heard.pose && IsFresh(*heard.pose, control.now())) Depart(control, "");
     return;
   }
@@ -60,6 +66,10 @@ void GotoMission::Step(MissionControl& control) {
     return control.Fail(
         fmt::format("the robot has held on its way for {:.0f} s: {}; next: see where it is, priamos place",
                     config_.stands_s, heard.drive->limit));
+  if (idles_.Stands_s(control) > config_.idle_s) {
+    idles_.Reset();
+    return OnStop(control, {Stop::Cause::kBlocked, "the robot came no further"});
+  }
   Reconsider(control);
 }
 
@@ -93,8 +103,21 @@ void GotoMission::Depart(MissionControl& control, const std::string& why) {
   Learn(control);
   ChooseGoal(control.heard().pose->map_from_base);
   Outcome<PlannedPath> path = planner_.Plan(control.heard().pose->map_from_base, goal_);
-  if (!path) return control.Fail(why.empty() ? path.reason() : why + ", and " + path.reason());
+  if (!path) return WaitOrFail(control, why, path.reason());
   Drive(control, std::move(*path), why);
+}
+
+/// What stopped the robot may be somebody, who goes away. Then all that stopped it is forgotten, and the way
+/// tried once more; a goal that nothing has stopped it from is refused at once.
+void GotoMission::WaitOrFail(MissionControl& control, const std::string& why, const std::string& no_way) {
+  if (why.empty()) return control.Fail(no_way);
+  if (++waits_ > config_.waits) return control.Fail(why + ", and " + no_way);
+  planner_.Forget();
+  departures_ = 0;
+  waits_since_ = control.now();
+  control.OrderPath({}, 0);
+  control.Enter(Phase::kWaiting, fmt::format("{}, and {}; waits {:.0f} s for it to go away, {} of {} times", why,
+                                             no_way, config_.wait_s, waits_, config_.waits));
 }
 
 void GotoMission::Drive(MissionControl& control, PlannedPath path, const std::string& why) {

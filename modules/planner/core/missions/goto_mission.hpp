@@ -20,6 +20,9 @@ struct GotoMissionConfig {
   double turned_deg = 5;  ///< ... and the difference in heading, if the heading counts
   int retries = 3;        ///< other ways that are tried after something was in the way
   double stands_s = 30;   ///< a robot that holds on its way for so long has the mission fail
+  double idle_s = 12;     ///< a robot that comes no further for so long, held by nothing, is blocked
+  int waits = 3;          ///< times that it waits, where there is no other way, for who may go away ...
+  double wait_s = 8;      ///< ... and how long
   double thing_m = 0.5;   ///< size of what is in the way, of which one side is known only
   MissionLimits limits{.resend_path_s = 4, .blocked_s = 3, .silent_s = 8, .limit_s = 600};
   RoutePlannerConfig route;
@@ -47,6 +50,7 @@ class GotoMission : public Mission {
 
  private:
   void Depart(MissionControl& control, const std::string& why);
+  void WaitOrFail(MissionControl& control, const std::string& why, const std::string& no_way);
   void ChooseGoal(const Pose2& map_from_base);
   void Drive(MissionControl& control, PlannedPath path, const std::string& why);
   void Learn(const MissionControl& control);
@@ -61,7 +65,9 @@ class GotoMission : public Mission {
   Goal goal_;
   int departures_ = 0;                           ///< after a stop
   std::shared_ptr<const LearnedWalls> learned_;  ///< as they were taken into account
-  StandWatch stands_;
+  int waits_ = 0;                                ///< at this place
+  std::optional<Time> waits_since_;              ///< for the way to become free
+  StandWatch stands_, idles_{StandWatch::Counts::kFree};
   bool whole_ = true;  ///< the path ordered last leads to the goal
 };
 

@@ -81,7 +81,7 @@ void DriveController::Reconfigure(const DriveConfig& config) {
 void DriveController::AddSonar(const SonarCycle& cycle, const Pose2& odom_from_base) {
   movers_.Add(cycle, odom_from_base);
   echoes_.Add(cycle, odom_from_base,
-              [this](const Eigen::Vector2d& odom) { return !InCorridor() || !movers_.IsOfMover(odom); });
+              [this](const Eigen::Vector2d& odom) { return !HeedsMovers() || !movers_.IsOfMover(odom); });
 }
 
 PathVerdict DriveController::SetPath(const Path& path, Time now) {
@@ -160,7 +160,7 @@ DriveController::Obstacles DriveController::Around(const Pose2& odom_from_base) 
   };
   around.placed = floor_.Points(odom_from_base);
   if (IsRough()) add(echoes_.Bridges(odom_from_base));
-  if (InCorridor()) {
+  if (HeedsMovers()) {
     const std::vector<Eigen::Vector2d> coming = movers_.Points(odom_from_base);
     around.placed.insert(around.placed.end(), coming.begin(), coming.end());
   }
@@ -261,7 +261,12 @@ Twist2 DriveController::WantedByPath(const DriveSituation& situation, const Obst
   return corridor_.MakeRoom(movers_, wanted, situation.odom_from_base, now).value_or(wanted.twist);
 }
 
-/// Only there does a base that goes to and fro beside things not take one of them for somebody who comes.
+/// An operator goes to and fro beside things, and in a doorway jambs come near: one of them might be taken for
+/// somebody who comes.
+bool DriveController::HeedsMovers() const {
+  return InCorridor() || (state_.mode != DriveMode::kOperated && follower_.MayLeaveLine());
+}
+
 bool DriveController::InCorridor() const {
   return state_.mode != DriveMode::kOperated && path_ && path_->centre;
 }

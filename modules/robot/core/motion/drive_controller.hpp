@@ -128,6 +128,7 @@ class DriveController {
   Twist2 WantedByPath(const DriveSituation& situation, const Obstacles& around, Time now, double dt_s);
   void BeginPath(const DriveSituation& situation);
   bool InCorridor() const;
+  bool HeedsMovers() const;
   void KeepCentred(const DriveSituation& situation, Time now);
   void StandIfLetGo(Time now);
   Twist2 WantedByOperator(Time now) const;

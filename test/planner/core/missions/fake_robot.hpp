@@ -33,6 +33,7 @@ class FakeRobot {
   std::optional<LeafSighting> leaf;
   bool silent = false;   ///< nothing comes through in either direction
   bool blocked = false;  ///< stands before an obstacle
+  bool idle = false;     ///< stands on its way although nothing holds it
   bool by_hand = false;  ///< an operator has the lease
   bool lost = false;     ///< holds, because it does not know where it is
   bool touched = false;  ///< stands because it touched something
@@ -119,7 +120,7 @@ class FakeRobot {
   /// Moves the truth by what brings the belief along the path.
   void Drive() {
     velocity_ = {};
-    if (route_.empty() || blocked || touched || lost) return;
+    if (route_.empty() || blocked || idle || touched || lost) return;
     const Pose2 believed = Believed();
     Pose2 next = believed;
     for (double left_m = paths.back().speed_m_s * Seconds(kStep); left_m > 0 && !route_.empty();)

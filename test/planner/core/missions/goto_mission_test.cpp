@@ -167,6 +167,51 @@ TEST(GotoMissionTest, AfterThreeOtherWaysItGivesUp) {
   EXPECT_TRUE(s.robot.paths.back().points.empty()) << "it brakes";
 }
 
+TEST(GotoMissionTest, WhoStandsAtTheGoalIsWaitedFor) {
+  Story s;
+  s.Start({{2.6, 2.4, 0}});
+  s.robot.RunUntilX(2.0);
+  s.robot.blocked = true;
+  s.robot.RunUntil(Phase::kWaiting, 6);
+  EXPECT_THAT(s.dut.state().text,
+              AllOf(StartsWith("the robot was blocked for 3 s: sonar, and at (2.60, 2.40)"),
+                    HasSubstr("waits 8 s for it to go away, 1 of 3 times")));
+  s.robot.RunFor(1);
+  EXPECT_TRUE(s.robot.paths.back().points.empty()) << "it stands";
+  s.robot.blocked = false;
+  s.robot.RunFor(6);
+  EXPECT_EQ(s.dut.state().phase, Phase::kWaiting);
+  s.robot.RunFor(10);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+}
+
+TEST(GotoMissionTest, WhatNeverGoesAwayFromTheGoalEndsItAfterThreeWaits) {
+  Story s;
+  s.Start({{2.6, 2.4, 0}});
+  s.robot.RunUntilX(2.0);
+  s.robot.blocked = true;
+  s.robot.RunFor(35);
+  EXPECT_TRUE(s.dut.running());
+  s.robot.RunFor(15);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  EXPECT_THAT(s.dut.state().text, HasSubstr("blocked for 3 s: sonar, and at (2.60, 2.40)"));
+}
+
+TEST(GotoMissionTest, ARobotThatComesNoFurtherThoughNothingHoldsItLooksForAnotherWay) {
+  Story s;
+  s.Start({{5.0, 2.4, 0}});
+  s.robot.RunUntilX(2.0);
+  s.robot.idle = true;
+  s.robot.RunFor(11);
+  EXPECT_EQ(s.robot.paths.size(), 1u);
+  s.robot.RunFor(3);
+  ASSERT_EQ(s.robot.paths.size(), 2u);
+  EXPECT_THAT(s.dut.state().text, StartsWith("the robot came no further; another way: driving to"));
+  s.robot.idle = false;
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+}
+
 TEST(GotoMissionTest, ATouchEndsIt) {
   Story s;
   s.Start({{5.0, 2.4, 0}});
