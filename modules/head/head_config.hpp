@@ -9,6 +9,7 @@
 #include "head/core/drift/drift_monitor.hpp"
 #include "head/core/floor/laser_watch.hpp"
 #include "head/core/motion/aim.hpp"
+#include "head/core/motion/aim_tilt.hpp"
 #include "head/core/motion/head_positioner.hpp"
 #include "head/core/motion/look_sequence.hpp"
 #include "head/core/motion/side_watch.hpp"
@@ -49,11 +50,12 @@ struct HeadConfig {
   std::string calibration = "kastor.yaml";  ///< table of head setups, beside the configuration file
   std::string pictures;           ///< folder from which pictures come instead of the cameras; none: empty
   std::string keep_pictures;      ///< folder in which the pictures used are kept; none: empty
-  double tilt_deg = 0;            ///< for all looks
+  double tilt_deg = 0;            ///< for all looks; farther up as `look_up` says
   double convergence_deg = 1.15;  ///< each camera is turned so far towards the middle
   int zoom_step = 650;
   int focus_step = 1600;
   AimConfig aim;
+  TiltConfig look_up;
   ReferencePose reference;
   CalibrationPlan plan;
   HeadGeometry drawing;  ///< where a calibration starts

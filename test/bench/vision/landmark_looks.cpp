@@ -6,6 +6,7 @@
 
 #include "common/config.hpp"
 #include "head/core/motion/aim.hpp"
+#include "head/core/motion/aim_tilt.hpp"
 #include "head/head_config.hpp"
 #include "test/bench/vision/true_axes.hpp"
 
@@ -31,6 +32,7 @@ head::HeadSetting LookAt(const head::HeadModel& head, const head::LandmarkModel&
   static const auto kConfig = LoadConfig<head::HeadConfig>(InSim("head.toml"));
   head::HeadSetting setting = kConfig.LookSetting();
   const Eigen::Matrix3d covariance = Eigen::Vector3d(0.115 * 0.115, 0.115 * 0.115, 0.05 * 0.05).asDiagonal();
+  setting.tilt_rad = head::AimTilt(head, setting, model, believed, kConfig.look_up);
   setting.pan_rad = head::AimPan(head, setting, model, {believed, covariance}, side, kConfig.aim);
   setting.pan_rad = std::round(setting.pan_rad / 0.0001) * 0.0001;  // whole steps
   return setting;
