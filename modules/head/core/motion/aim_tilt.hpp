@@ -8,7 +8,7 @@ namespace priamos::head {
 
 /// How far the head looks up, so that what lies above an opening is in the pictures.
 struct TiltConfig {
-  double most_deg = 20;   ///< no farther than this
+  double most_deg = 30;   ///< no farther than this
   double margin_px = 30;  ///< an edge nearer to the upper border does not count as in the picture
 
   void Describe(Archive& a);
