@@ -64,6 +64,7 @@ const std::map<std::string, std::string> kWithoutUnit{
     {"test/robot/core/motion/corridor_run_test", "the whole room between walls"},
     {"test/robot/core/motion/detour_run_test", "the whole room around boxes"},
     {"test/robot/core/motion/door_run_test", "the whole room in one run"},
+    {"test/robot/core/motion/mover_run_test", "the whole room before somebody who comes"},
     {"test/robot/core/motion/slant_run_test", "the whole room along walls and through openings at a slant"},
     {"test/robot/core/motion/shared_control_test", "the whole room under an operator"},
     {"test/robot/core/pose/pose_consistency_test", "statistics of the whole room"},
