@@ -108,8 +108,8 @@ HeadSetting HeadApp::SettingFor(const LookOrder& order, Time now) const {
   const auto robot = poses_.At(now);
   if (model == models_.end() || !robot) return setting;
   const Pose2 there = Integrate(robot->map_from_base, robot->twist, config_.aim.lead_s);
-  setting.tilt_rad = AimTilt(head_, setting, model->second,
-                             there.Inverse() * model->second.map_from_landmark, config_.look_up);
+  setting.tilt_rad = AimTilt(head_, setting, model->second, there.Inverse() * model->second.map_from_landmark,
+                             config_.look_up);
   setting.pan_rad = AimPan(head_, setting, model->second, *robot, order.side, config_.aim);
   return setting;
 }

@@ -38,7 +38,8 @@ void HeadConfig::Describe(Archive& a) {
          "folder with the pictures of a log that is played, relative to this file; empty: the cameras");
   a.Text("keep_pictures", keep_pictures,
          "folder in which every picture that is used is kept, relative to this file; empty: none is");
-  a.Number("tilt_deg", tilt_deg, {"deg", -45, 45, "tilt for all looks, positive looks down; farther up as look_up says"});
+  a.Number("tilt_deg", tilt_deg,
+           {"deg", -45, 45, "tilt for all looks, positive looks down; farther up as look_up says"});
   a.Number("convergence_deg", convergence_deg,
            {"deg", -20, 20, "each camera is turned so far towards the middle"});
   a.Integer("zoom_step", zoom_step, {"step", 0, 2000, "zoom motors for all looks"});

@@ -14,10 +14,11 @@ struct TiltConfig {
   void Describe(Archive& a);
 };
 
-/// The tilt [rad], positive down, for a look at a landmark at `base_from_landmark`: that of `base`, or as much
-/// farther up as both pictures need to show the highest of its level edges that a viewer there sees. From near,
-/// that is what else than one jamb there is to be seen of a door, and what tells the heading best. That of
-/// `base` where `most_deg` is not enough, or the landmark has no such edge. `base` gives all other axes.
+/// The tilt [rad], positive down, for a look at a landmark at `base_from_landmark`: that of `base`, or as
+/// much farther up as both pictures need to show the highest of its level edges that a viewer there sees.
+/// From near, that is what else than one jamb there is to be seen of a door, and what tells the heading best.
+/// That of `base` where `most_deg` is not enough, or the landmark has no such edge. `base` gives all other
+/// axes.
 double AimTilt(const HeadModel& head, const HeadSetting& base, const LandmarkModel& model,
                const Pose2& base_from_landmark, const TiltConfig& config);
 

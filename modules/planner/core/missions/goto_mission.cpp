@@ -116,8 +116,8 @@ void GotoMission::WaitOrFail(MissionControl& control, const std::string& why, co
   departures_ = 0;
   waits_since_ = control.now();
   control.OrderPath({}, 0);
-  control.Enter(Phase::kWaiting, fmt::format("{}, and {}; waits {:.0f} s for it to go away, {} of {} times", why,
-                                             no_way, config_.wait_s, waits_, config_.waits));
+  control.Enter(Phase::kWaiting, fmt::format("{}, and {}; waits {:.0f} s for it to go away, {} of {} times",
+                                             why, no_way, config_.wait_s, waits_, config_.waits));
 }
 
 void GotoMission::Drive(MissionControl& control, PlannedPath path, const std::string& why) {

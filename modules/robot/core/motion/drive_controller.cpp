@@ -261,8 +261,8 @@ Twist2 DriveController::WantedByPath(const DriveSituation& situation, const Obst
   return corridor_.MakeRoom(movers_, wanted, situation.odom_from_base, now).value_or(wanted.twist);
 }
 
-/// An operator goes to and fro beside things, and in a doorway jambs come near: one of them might be taken for
-/// somebody who comes.
+/// An operator goes to and fro beside things, and in a doorway jambs come near: one of them might be taken
+/// for somebody who comes.
 bool DriveController::HeedsMovers() const {
   return InCorridor() || (state_.mode != DriveMode::kOperated && follower_.MayLeaveLine());
 }

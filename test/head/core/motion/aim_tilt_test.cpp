@@ -17,7 +17,8 @@ LandmarkModel Opening(double height_m) {
   LandmarkModel model;
   for (const double y : {0.45, -0.45}) model.edges.push_back({{0, y, 0}, {0, y, height_m}});
   model.edges.push_back({{0, -0.45, height_m}, {0, 0.45, height_m}});
-  model.edges.push_back({{0.1, -0.45, height_m + 0.1}, {0.1, 0.45, height_m + 0.1}, -0.1, 0.1});  // from behind
+  model.edges.push_back(
+      {{0.1, -0.45, height_m + 0.1}, {0.1, 0.45, height_m + 0.1}, -0.1, 0.1});  // from behind
   return model;
 }
 
