@@ -65,7 +65,7 @@ class GotoMission : public Mission {
   Goal goal_;
   int departures_ = 0;                           ///< after a stop
   std::shared_ptr<const LearnedWalls> learned_;  ///< as they were taken into account
-  int waits_ = 0;                                ///< at this place
+  int waits_ = 0;                                ///< since the order
   std::optional<Time> waits_since_;              ///< for the way to become free
   StandWatch stands_, idles_{StandWatch::Counts::kFree};
   bool whole_ = true;  ///< the path ordered last leads to the goal
