@@ -102,11 +102,19 @@ void HeadApp::EndWithoutPictures(Time now) {
 }
 
 /// Straight ahead while model or pose are unknown, which the answer reports.
-double HeadApp::PanFor(const LookOrder& order, Time now) const {
+HeadSetting HeadApp::SettingFor(const LookOrder& order, Time now) const {
+  HeadSetting setting = config_.LookSetting();
   const auto model = models_.find(order.landmark_id);
   const auto robot = poses_.At(now);
-  if (model == models_.end() || !robot) return 0;
-  return AimPan(head_, config_.LookSetting(), model->second, *robot, order.side, config_.aim);
+  if (model == models_.end() || !robot) return setting;
+  if (config_.lens.choose && report_) {
+    // Counters may rest a step beside the goal.
+    const HeadSetting& here = positioner_.settled() ? positioner_.goal() : report_->setting;
+    return ChooseLens(head_, setting, here, {model->second, *robot, order.side}, config_.aim, config_.lens,
+                      config_.motors.approach_steps);
+  }
+  setting.pan_rad = AimPan(head_, setting, model->second, *robot, order.side, config_.aim);
+  return setting;
 }
 
 void HeadApp::Reconfigure(const HeadConfig& config) {
@@ -160,9 +168,7 @@ void HeadApp::StartNext(Time now) {
   if (look_.active() && !glancing_) return;
   if (orders_.empty()) return GlanceAside(now);
   glancing_ = false;  // an order has the head at once
-  HeadSetting setting = config_.LookSetting();
-  setting.pan_rad = PanFor(orders_.front(), now);
-  positioner_.MoveTo(setting, now);
+  positioner_.MoveTo(SettingFor(orders_.front(), now), now);
   look_.Begin(now);
 }
 

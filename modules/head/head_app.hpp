@@ -71,7 +71,7 @@ class HeadApp {
   std::optional<GreyImage> Picture(const FrameNotice& frame);
   void Judge(const StereoDrift& drift);
   void ReportHealth();
-  double PanFor(const LookOrder& order, Time now) const;
+  HeadSetting SettingFor(const LookOrder& order, Time now) const;
   void Answer(LookAnswer answer);
 
   HeadConfig config_;
