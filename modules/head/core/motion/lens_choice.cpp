@@ -72,7 +72,8 @@ class Chooser {
         zooms_(RangeOf(head, &LensTable::zoom_steps, approach_steps)),
         focuses_(RangeOf(head, &LensTable::focus_steps, approach_steps)),
         drives_(std::hypot(wish.robot.twist.vx, wish.robot.twist.vy) > kDrives_m_s),
-        reference_(Kept(Aimed(fixed, 0), 0)) {}
+        reference_(Kept(Aimed(fixed, 0), 0)),
+        shown_(Shown(Aimed(fixed, 0))) {}
 
   HeadSetting Best() const {
     Choice best = Judge(fixed_);
@@ -148,9 +149,18 @@ class Chooser {
     return KeptAt(head_, aimed, wish_.model, Expected(extra_s), wish_.side, aim_);
   }
 
-  /// A setting is not chosen for fear of a landmark that may be elsewhere.
+  /// What is in both pictures if the landmark is where it is expected.
+  KeptEdges Shown(const HeadSetting& aimed) const {
+    AimConfig certain = aim_;
+    certain.sigmas = 0;
+    return KeptAt(head_, aimed, wish_.model, Expected(0), wish_.side, certain);
+  }
+
+  /// Through a longer lens a landmark that may be elsewhere would be missed.
   bool IsForbidden(const HeadSetting& aimed) const {
-    return aimed.zoom_step[0] > fixed_.zoom_step[0] && !Kept(aimed, Extra(aimed)).side_is_kept;
+    if (aimed.zoom_step[0] <= fixed_.zoom_step[0]) return false;
+    const KeptEdges kept = Kept(aimed, Extra(aimed));
+    return !kept.side_is_kept || kept.Lost(shown_) > 0;
   }
 
   double Score(const HeadSetting& setting, int kept) const {
@@ -187,7 +197,8 @@ class Chooser {
   int approach_steps_;
   StepRange zooms_, focuses_;
   bool drives_;
-  KeptEdges reference_;  ///< of a head that has always stood at the fixed setting
+  /// Of a head that has always stood at the fixed setting: what it keeps for certain, and what it shows.
+  KeptEdges reference_, shown_;
 };
 
 double MoveTime(double steps, const LensChoiceConfig& config) {
@@ -223,15 +234,17 @@ int KeptEdges::Lost(const KeptEdges& other) const {
 
 KeptEdges KeptAt(const HeadModel& head, const HeadSetting& setting, const LandmarkModel& model,
                  const LandmarkPrediction& prediction, int side, const AimConfig& aim) {
-  KeptEdges kept{std::vector<bool>(model.edges.size(), false), true};
+  KeptEdges kept{std::vector<bool>(model.edges.size(), false), false};
   const auto left = head.CameraAt(setting, kLeft), right = head.CameraAt(setting, kRight);
-  for (std::size_t i = 0; i < model.edges.size(); ++i) {
+  int ordered = 0, ordered_kept = 0;
+  for (std::size_t i = 0; i < model.edges.size() && left && right; ++i) {
     const LandmarkEdge& edge = model.edges[i];
-    if (left && right)
-      kept.edge[i] = OutsideBy(head.geometry, {*left, *right}, edge, prediction, aim) == 0;
-    const bool ordered = edge.IsVertical() && !edge.IsMovable() && (side == 0 || edge.side == side);
-    if (ordered && !kept.edge[i]) kept.side_is_kept = false;
+    kept.edge[i] = OutsideBy(head.geometry, {*left, *right}, edge, prediction, aim) == 0;
+    if (!edge.IsVertical() || edge.IsMovable() || (side != 0 && edge.side != side)) continue;
+    ++ordered;
+    ordered_kept += kept.edge[i];
   }
+  kept.side_is_kept = ordered > 0 && ordered_kept == ordered;
   return kept;
 }
 

@@ -35,11 +35,11 @@ struct LookWish {
 /// head that does not choose. `here` is where the motors stand.
 ///
 /// A setting tells as much as it keeps edges in both pictures for certain (as AimPan means it, and level
-/// edges likewise), times the square of focal length over blur; chosen is the one that tells most in the time
-/// that the look takes with it, motors included, by the logarithm. The robot drives on meanwhile. Never
-/// chosen is a setting that loses an edge that `fixed` would keep, if there is another one, nor a longer
-/// focal length than that of `fixed` unless the uprights of the side ordered are in both pictures for certain.
-/// Only calibrated settings are chosen that can be approached from below by `approach_steps`.
+/// edges likewise), times the square of focal length over blur; chosen is the one that tells most per time of
+/// the look, motors included; the robot drives on meanwhile. Never chosen is a setting that loses an edge that
+/// `fixed` would keep, if there is another one, nor a longer focal length than that of `fixed` unless it keeps
+/// for certain the uprights of the side ordered, and what `fixed` shows of a landmark that is where it is
+/// expected. Only calibrated settings are chosen that can be approached from below by `approach_steps`.
 HeadSetting ChooseLens(const HeadModel& head, const HeadSetting& fixed, const HeadSetting& here,
                        const LookWish& wish, const AimConfig& aim, const LensChoiceConfig& config,
                        int approach_steps);
@@ -47,7 +47,7 @@ HeadSetting ChooseLens(const HeadModel& head, const HeadSetting& fixed, const He
 /// Which edges of a model a setting keeps in both pictures, for certain; movable ones never.
 struct KeptEdges {
   std::vector<bool> edge;    ///< by its index in the model
-  bool side_is_kept = true;  ///< all uprights of the side ordered
+  bool side_is_kept = true;  ///< all uprights of the side ordered, of which there are some
 
   int count() const;
   /// Number of edges that `other` keeps and this one does not.

@@ -32,5 +32,8 @@ Eigen::Vector2d SubSample(int k, int n);
 /// `light`: CV_32F, 1 is white under full light. `defocus_px`: sigma of wrong focus.
 GreyImage FormImage(const ImagingConfig& config, const TrueCamera& camera, double defocus_px,
                     const cv::Mat& light, const Exposure& exposure, Rng& rng);
+/// The same where things are differently sharp: `defocus_px` (CV_64F) over equal parts of the fine grid.
+GreyImage FormImage(const ImagingConfig& config, const TrueCamera& camera, const cv::Mat& defocus_px,
+                    const cv::Mat& light, const Exposure& exposure, Rng& rng);
 
 }  // namespace priamos::world
