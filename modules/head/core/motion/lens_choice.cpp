@@ -50,6 +50,7 @@ DioptreRange DioptresOf(const HeadGeometry& head, const LandmarkModel& model, co
 struct Choice {
   HeadSetting setting;
   int lost = 0;      ///< edges that the fixed setting would keep
+  bool whole = true;
   double score = 0;  ///< logarithm of what the look tells in a second
 };
 
@@ -72,8 +73,7 @@ class Chooser {
         zooms_(RangeOf(head, &LensTable::zoom_steps, approach_steps)),
         focuses_(RangeOf(head, &LensTable::focus_steps, approach_steps)),
         drives_(std::hypot(wish.robot.twist.vx, wish.robot.twist.vy) > kDrives_m_s),
-        reference_(Kept(Aimed(fixed, 0), 0)),
-        shown_(Shown(Aimed(fixed, 0))) {}
+        reference_(Kept(Aimed(fixed, 0), 0)) {}
 
   HeadSetting Best() const {
     Choice best = Judge(fixed_);
@@ -82,7 +82,9 @@ class Chooser {
     for (const HeadSetting& setting : settings) {
       if (best.lost == 0 && MostScore(setting) <= best.score) break;
       const Choice choice = Judge(setting);
-      if (!IsForbidden(choice.setting) && IsBetter(choice, best)) best = choice;
+      // Through a longer lens a landmark that may be elsewhere would be missed, and of a part little is seen.
+      const bool longer = setting.zoom_step[0] > fixed_.zoom_step[0];
+      if ((choice.whole || !longer) && IsBetter(choice, best)) best = choice;
     }
     return best.setting;
   }
@@ -146,21 +148,7 @@ class Chooser {
   }
 
   KeptEdges Kept(const HeadSetting& aimed, double extra_s) const {
-    return KeptAt(head_, aimed, wish_.model, Expected(extra_s), wish_.side, aim_);
-  }
-
-  /// What is in both pictures if the landmark is where it is expected.
-  KeptEdges Shown(const HeadSetting& aimed) const {
-    AimConfig certain = aim_;
-    certain.sigmas = 0;
-    return KeptAt(head_, aimed, wish_.model, Expected(0), wish_.side, certain);
-  }
-
-  /// Through a longer lens a landmark that may be elsewhere would be missed.
-  bool IsForbidden(const HeadSetting& aimed) const {
-    if (aimed.zoom_step[0] <= fixed_.zoom_step[0]) return false;
-    const KeptEdges kept = Kept(aimed, Extra(aimed));
-    return !kept.side_is_kept || kept.Lost(shown_) > 0;
+    return KeptAt(head_, aimed, wish_.model, Expected(extra_s), aim_);
   }
 
   double Score(const HeadSetting& setting, int kept) const {
@@ -186,7 +174,7 @@ class Chooser {
     const double extra_s = Extra(setting);
     const HeadSetting aimed = Aimed(setting, extra_s);
     const KeptEdges kept = Kept(aimed, extra_s);
-    return {aimed, kept.Lost(reference_), Score(setting, kept.count())};
+    return {aimed, kept.Lost(reference_), kept.whole, Score(setting, kept.count())};
   }
 
   const HeadModel& head_;
@@ -197,8 +185,7 @@ class Chooser {
   int approach_steps_;
   StepRange zooms_, focuses_;
   bool drives_;
-  /// Of a head that has always stood at the fixed setting: what it keeps for certain, and what it shows.
-  KeptEdges reference_, shown_;
+  KeptEdges reference_;  ///< of a head that has always stood at the fixed setting
 };
 
 double MoveTime(double steps, const LensChoiceConfig& config) {
@@ -233,18 +220,16 @@ int KeptEdges::Lost(const KeptEdges& other) const {
 }
 
 KeptEdges KeptAt(const HeadModel& head, const HeadSetting& setting, const LandmarkModel& model,
-                 const LandmarkPrediction& prediction, int side, const AimConfig& aim) {
+                 const LandmarkPrediction& prediction, const AimConfig& aim) {
   KeptEdges kept{std::vector<bool>(model.edges.size(), false), false};
   const auto left = head.CameraAt(setting, kLeft), right = head.CameraAt(setting, kRight);
-  int ordered = 0, ordered_kept = 0;
-  for (std::size_t i = 0; i < model.edges.size() && left && right; ++i) {
+  if (!left || !right) return kept;
+  kept.whole = true;
+  for (std::size_t i = 0; i < model.edges.size(); ++i) {
     const LandmarkEdge& edge = model.edges[i];
     kept.edge[i] = OutsideBy(head.geometry, {*left, *right}, edge, prediction, aim) == 0;
-    if (!edge.IsVertical() || edge.IsMovable() || (side != 0 && edge.side != side)) continue;
-    ++ordered;
-    ordered_kept += kept.edge[i];
+    if (!edge.IsMovable() && (edge.IsVertical() || edge.IsLevel()) && !kept.edge[i]) kept.whole = false;
   }
-  kept.side_is_kept = ordered > 0 && ordered_kept == ordered;
   return kept;
 }
 

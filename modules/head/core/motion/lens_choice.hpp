@@ -38,23 +38,23 @@ struct LookWish {
 /// edges likewise), times the square of focal length over blur; chosen is the one that tells most per time of
 /// the look, motors included; the robot drives on meanwhile. Never chosen is a setting that loses an edge that
 /// `fixed` would keep, if there is another one, nor a longer focal length than that of `fixed` unless it keeps
-/// for certain the uprights of the side ordered, and what `fixed` shows of a landmark that is where it is
-/// expected. Only calibrated settings are chosen that can be approached from below by `approach_steps`.
+/// the whole landmark. Only calibrated settings are chosen that can be approached from below by
+/// `approach_steps`.
 HeadSetting ChooseLens(const HeadModel& head, const HeadSetting& fixed, const HeadSetting& here,
                        const LookWish& wish, const AimConfig& aim, const LensChoiceConfig& config,
                        int approach_steps);
 
 /// Which edges of a model a setting keeps in both pictures, for certain; movable ones never.
 struct KeptEdges {
-  std::vector<bool> edge;    ///< by its index in the model
-  bool side_is_kept = true;  ///< all uprights of the side ordered, of which there are some
+  std::vector<bool> edge;  ///< by its index in the model
+  bool whole = false;      ///< all upright and level edges that are not movable
 
   int count() const;
   /// Number of edges that `other` keeps and this one does not.
   int Lost(const KeptEdges& other) const;
 };
 KeptEdges KeptAt(const HeadModel& head, const HeadSetting& setting, const LandmarkModel& model,
-                 const LandmarkPrediction& prediction, int side, const AimConfig& aim);
+                 const LandmarkPrediction& prediction, const AimConfig& aim);
 
 /// Time [s] from one motor position to another one of zoom or focus, arriving from below.
 double LensTravel(int from_step, int to_step, int approach_steps, const LensChoiceConfig& config);

@@ -49,10 +49,10 @@ HeadSetting Chosen(const PoseSample& robot, const HeadSetting& here = kFixed, in
   return ChooseLens(Head(), kFixed, here, {Door(), robot, side}, {}, config, kApproach_steps);
 }
 
-KeptEdges KeptOf(const HeadSetting& setting, const PoseSample& robot, double lead_s, int side = 1) {
+KeptEdges KeptOf(const HeadSetting& setting, const PoseSample& robot, double lead_s) {
   PoseSample then = robot;
   then.map_from_base = Integrate(robot.map_from_base, robot.twist, lead_s);
-  return KeptAt(Head(), setting, Door(), Predict(then, {}), side, {});
+  return KeptAt(Head(), setting, Door(), Predict(then, {}), {});
 }
 
 PoseSample Driving(PoseSample robot) {
@@ -78,6 +78,12 @@ TEST(LensChoice, AllElseIsThatOfTheFixedSetting) {
 
 TEST(LensChoice, ALandmarkThatMayBeElsewhereIsNotLookedForThroughALongLens) {
   EXPECT_LE(Chosen(Before(4, 0.3, 0.14)).zoom_step[0], kFixed.zoom_step[0]);
+}
+
+TEST(LensChoice, APartOfALandmarkIsNotEnlarged) {
+  const HeadSetting dut = Chosen(Before(1.4));
+  EXPECT_FALSE(KeptOf(dut, Before(1.4), 0).whole);
+  EXPECT_LE(dut.zoom_step[0], kFixed.zoom_step[0]);
 }
 
 TEST(LensChoice, FocusesOnTheLandmark) {
@@ -158,8 +164,8 @@ RC_GTEST_PROP(LensChoice, NeverLosesWhatTheFixedSettingKeepsAndStaysInTheTable, 
   then.map_from_base = Integrate(robot.map_from_base, robot.twist, aim.lead_s);
   HeadSetting fixed = kFixed;
   fixed.pan_rad = AimPan(Head(), kFixed, Door(), Predict(then, {}), side, aim);
-  const KeptEdges wanted = KeptOf(fixed, robot, aim.lead_s, side);
-  const int lost = KeptOf(dut, robot, aim.lead_s + extra_s, side).Lost(wanted);
+  const KeptEdges wanted = KeptOf(fixed, robot, aim.lead_s);
+  const int lost = KeptOf(dut, robot, aim.lead_s + extra_s).Lost(wanted);
   // While the motors bring it there from elsewhere the fixed setting itself may lose some.
   LensChoiceConfig away = config;
   if (lost > 0) {
@@ -169,7 +175,7 @@ RC_GTEST_PROP(LensChoice, NeverLosesWhatTheFixedSettingKeepsAndStaysInTheTable, 
     const double lead_s = aim.lead_s + std::max(0.0, back_s - config.turn_s);
     then.map_from_base = Integrate(robot.map_from_base, robot.twist, lead_s);
     back.pan_rad = AimPan(Head(), kFixed, Door(), Predict(then, {}), side, aim);
-    RC_ASSERT(lost <= KeptOf(back, robot, lead_s, side).Lost(wanted));
+    RC_ASSERT(lost <= KeptOf(back, robot, lead_s).Lost(wanted));
   }
 }
 
