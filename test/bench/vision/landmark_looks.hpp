@@ -31,8 +31,8 @@ CalibratedHead CalibrateSpecimenWholly(std::uint64_t seed);
 struct LandmarkLook {
   std::array<cv::Mat, 2> images;
   std::array<head::CameraModel, 2> calibrated, exact;
-  head::HeadSetting setting;  ///< of the motors
-  Pose2 truth, believed;      ///< base_from_landmark
+  head::HeadSetting setting;                         ///< of the motors
+  Pose2 truth, believed;                             ///< base_from_landmark
   Eigen::Matrix3d belief = Eigen::Matrix3d::Zero();  ///< covariance of `believed`
   bool is_there = true;
   double leaf_open_deg = 0;         ///< as it stands, Trouble::kLeafMoved only
@@ -53,9 +53,9 @@ struct LookStage {
   world::SceneConfig light;
   planner::Landmark landmark;  ///< as the planner's map has it
   double distance_m = 2.4;     ///< of the head
-  int visit = 0;  ///< later ones: the same landmark, as far off its model, from 1.8 to 3.2 m before it
-  double doubt = 1;          ///< how wrong the belief is: 1 up to 20 cm and 5 degrees
-  bool choose_lens = false;  ///< zoom and focus for this look, instead of those of all looks
+  int visit = 0;     ///< later ones: the same landmark, as far off its model, from 1.8 to 3.2 m before it
+  double doubt = 1;  ///< how wrong the belief is: 1 up to 20 cm and 5 degrees
+  bool choose_lens = false;        ///< zoom and focus for this look, instead of those of all looks
   bool focus_by_distance = false;  ///< world::ImagingConfig
 };
 

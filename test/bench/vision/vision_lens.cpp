@@ -34,18 +34,20 @@ struct LensSeries : FixSeries {
 };
 
 void Tell(const char* what, const LensSeries& s) {
-  fmt::print("  {:7} {:2} of {:2} right, {} wrong; zoom {:4.0f}, focus {:4.0f}; {:4.1f} edges; median {:.2f} mm "
-             "depth, {:.2f} mm lateral, {:.3f} deg; squared error over covariance {:.2f}\n",
-             what, s.good, s.looks, s.wrong, s.zoom_steps / s.looks, s.focus_steps / s.looks,
-             double(s.edges) / std::max(s.good, 1), 1e3 * Quantile(s.depth, 0.5),
-             1e3 * Quantile(s.lateral, 0.5), Degrees(Quantile(s.yaw, 0.5)), s.MeanNees());
+  fmt::print(
+      "  {:7} {:2} of {:2} right, {} wrong; zoom {:4.0f}, focus {:4.0f}; {:4.1f} edges; median {:.2f} mm "
+      "depth, {:.2f} mm lateral, {:.3f} deg; squared error over covariance {:.2f}\n",
+      what, s.good, s.looks, s.wrong, s.zoom_steps / s.looks, s.focus_steps / s.looks,
+      double(s.edges) / std::max(s.good, 1), 1e3 * Quantile(s.depth, 0.5), 1e3 * Quantile(s.lateral, 0.5),
+      Degrees(Quantile(s.yaw, 0.5)), s.MeanNees());
 }
 
 }  // namespace
 
 void BenchLens(const VisionOptions& options, Figures& figures) {
   const int n = options.quick ? 12 : 60;
-  fmt::print("the door from near and far: one setting for all looks, and one chosen for each; {} looks each\n", n);
+  fmt::print(
+      "the door from near and far: one setting for all looks, and one chosen for each; {} looks each\n", n);
   DoorPhotographer photographer;
   Fixer fixer;
   const CalibratedHead head = CalibrateSpecimenWholly(1);

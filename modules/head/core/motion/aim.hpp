@@ -30,7 +30,8 @@ double AimPan(const HeadModel& head, const HeadSetting& base, const LandmarkMode
 
 /// How far [px] one edge of the model may be outside of the usable part of a picture, of the worse one of
 /// both: margin and standard deviations are added to its place. 0: it is in both for certain. An upright edge
-/// counts by its bearing, a level one by its height in the picture; other edges, and movable ones, are nowhere.
+/// counts by its bearing, a level one by its height in the picture; other edges, and movable ones, are
+/// nowhere.
 double OutsideBy(const HeadGeometry& head, const std::array<CameraModel, 2>& cameras,
                  const LandmarkEdge& edge, const LandmarkPrediction& prediction, const AimConfig& config);
 

@@ -33,7 +33,8 @@ struct DioptreRange {
   double nearest = 0, farthest = 0;
 };
 
-DioptreRange DioptresOf(const HeadGeometry& head, const LandmarkModel& model, const Pose2& base_from_landmark) {
+DioptreRange DioptresOf(const HeadGeometry& head, const LandmarkModel& model,
+                        const Pose2& base_from_landmark) {
   constexpr double kTooNear_m = 0.1;
   const Eigen::Isometry3d transform = Lift(base_from_landmark);
   DioptreRange range{0, 1 / kTooNear_m};
@@ -49,7 +50,7 @@ DioptreRange DioptresOf(const HeadGeometry& head, const LandmarkModel& model, co
 /// A setting and what it is worth.
 struct Choice {
   HeadSetting setting;
-  int lost = 0;      ///< edges that the fixed setting would keep
+  int lost = 0;  ///< edges that the fixed setting would keep
   bool whole = true;
   double score = 0;  ///< logarithm of what the look tells in a second
 };
@@ -155,8 +156,7 @@ class Chooser {
     const auto camera = head_.CameraAt(setting, kLeft);
     if (!camera) return -1e9;
     const double extra_s = Extra(setting);
-    const DioptreRange range =
-        DioptresOf(head_.geometry, wish_.model, Expected(extra_s).base_from_landmark);
+    const DioptreRange range = DioptresOf(head_.geometry, wish_.model, Expected(extra_s).base_from_landmark);
     double blur_px = 0;
     for (const double dioptre : {range.nearest, range.farthest})
       blur_px = std::max(blur_px, config_.optics.Blur(camera->scale_px, setting.focus_step[0], dioptre));

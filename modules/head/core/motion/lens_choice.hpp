@@ -36,9 +36,9 @@ struct LookWish {
 ///
 /// A setting tells as much as it keeps edges in both pictures for certain (as AimPan means it, and level
 /// edges likewise), times the square of focal length over blur; chosen is the one that tells most per time of
-/// the look, motors included; the robot drives on meanwhile. Never chosen is a setting that loses an edge that
-/// `fixed` would keep, if there is another one, nor a longer focal length than that of `fixed` unless it keeps
-/// the whole landmark. Only calibrated settings are chosen that can be approached from below by
+/// the look, motors included; the robot drives on meanwhile. Never chosen is a setting that loses an edge
+/// that `fixed` would keep, if there is another one, nor a longer focal length than that of `fixed` unless it
+/// keeps the whole landmark. Only calibrated settings are chosen that can be approached from below by
 /// `approach_steps`.
 HeadSetting ChooseLens(const HeadModel& head, const HeadSetting& fixed, const HeadSetting& here,
                        const LookWish& wish, const AimConfig& aim, const LensChoiceConfig& config,

@@ -34,7 +34,8 @@ cv::Mat PixelKernel(double sigma_px) {
 cv::Mat Blurred(const cv::Mat& light, const cv::Mat& sigma_px) {
   double least = 0, most = 0;
   cv::minMaxLoc(sigma_px, &least, &most);
-  const int steps = std::clamp(static_cast<int>(std::ceil((most - least) / kFineEnough_px)), 0, kMostBlurs - 1);
+  const int steps =
+      std::clamp(static_cast<int>(std::ceil((most - least) / kFineEnough_px)), 0, kMostBlurs - 1);
   if (steps == 0) return Filtered(light, least);
   const double step = (most - least) / steps;
   cv::Mat at, sum = cv::Mat::zeros(light.size(), CV_32F);

@@ -12,7 +12,8 @@ TEST(LensFocus, StepsOfTheRingAreEqualStepsOfInverseDistance) {
   EXPECT_NEAR(lens.DioptreAt(2000), 0, 1e-12);
   EXPECT_NEAR(lens.DioptreAt(0), 1 / 0.6, 1e-12);
   EXPECT_NEAR(lens.DioptreAt(1600), 1 / 3.0, 1e-12);
-  for (const double dioptre : {0.0, 0.2, 1.0}) EXPECT_NEAR(lens.DioptreAt(lens.StepFor(dioptre)), dioptre, 1e-12);
+  for (const double dioptre : {0.0, 0.2, 1.0})
+    EXPECT_NEAR(lens.DioptreAt(lens.StepFor(dioptre)), dioptre, 1e-12);
 }
 
 TEST(LensFocus, TheBlurOfAPointIsTheApertureSeenFromThere) {

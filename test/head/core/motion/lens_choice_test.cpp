@@ -110,10 +110,10 @@ TEST(LensChoice, StaysWhereItIsForLittle) {
 TEST(LensChoice, LooksFromWhereTheBaseWillBeByThen) {
   // By the time a long lens is there the door would no longer fit.
   const HeadSetting slow = Chosen(Before(3.2)), fast = Chosen([] {
-    PoseSample robot = Before(3.2);
-    robot.twist = {0.9, 0, 0};
-    return robot;
-  }());
+                                                  PoseSample robot = Before(3.2);
+                                                  robot.twist = {0.9, 0, 0};
+                                                  return robot;
+                                                }());
   EXPECT_LT(fast.zoom_step[0], slow.zoom_step[0]);
 }
 
