@@ -198,7 +198,6 @@ double MoveTime(double steps, const LensChoiceConfig& config) {
 
 void LensChoiceConfig::Describe(Archive& a) {
   a.Flag("choose", choose, "zoom and focus for each look by itself; off: zoom_step and focus_step for all");
-  a.Section("optics", optics, "what the lens's maker says");
   a.Number("speed_step_s", speed_step_s, {"step/s", 10, 100000, "of the motors of zoom and focus"});
   a.Number("acceleration_step_s2", acceleration_step_s2, {"step/s^2", 10, 1e6, "of these motors"});
   a.Number("turn_s", turn_s, {"s", 0, 5, "turning takes as long anyway; lens motors within it cost nothing"});
@@ -207,6 +206,7 @@ void LensChoiceConfig::Describe(Archive& a) {
   a.Number("standing_look_s", standing_look_s, {"s", 0.1, 60, "the same while the base stands"});
   a.Number("least_gain", least_gain,
            {"-", 0, 3, "natural logarithm of what a look tells in a second: less moves no motor"});
+  a.Section("optics", optics, "what the lens's maker says");
 }
 
 int KeptEdges::count() const {
