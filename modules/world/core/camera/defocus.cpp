@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "world/core/camera/image_formation.hpp"
+#include "world/core/camera/fine_grid.hpp"
 
 namespace priamos::world {
 namespace {
