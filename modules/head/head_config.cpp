@@ -42,10 +42,11 @@ void HeadConfig::Describe(Archive& a) {
            {"deg", -45, 45, "tilt for all looks, positive looks down; farther up as look_up says"});
   a.Number("convergence_deg", convergence_deg,
            {"deg", -20, 20, "each camera is turned so far towards the middle"});
-  a.Integer("zoom_step", zoom_step, {"step", 0, 2000, "zoom motors for all looks"});
-  a.Integer("focus_step", focus_step, {"step", 0, 2000, "focus motors for all looks"});
+  a.Integer("zoom_step", zoom_step, {"step", 0, 2000, "zoom motors for all looks that do not choose it"});
+  a.Integer("focus_step", focus_step, {"step", 0, 2000, "focus motors likewise"});
   a.Section("aim", aim, "where the head looks");
   a.Section("look_up", look_up, "how far a look is tilted up, so that the lintel is in the pictures");
+  a.Section("lens", lens, "zoom and focus of each look");
   a.Section("reference", reference, "where the reference object stands during a calibration");
   a.Section("plan", plan, "the settings a calibration visits");
   a.Section("drawing", drawing, "the head as drawn: where a calibration starts");

@@ -11,6 +11,7 @@
 #include "head/core/motion/aim.hpp"
 #include "head/core/motion/aim_tilt.hpp"
 #include "head/core/motion/head_positioner.hpp"
+#include "head/core/motion/lens_choice.hpp"
 #include "head/core/motion/look_sequence.hpp"
 #include "head/core/motion/side_watch.hpp"
 #include "head/video_config.hpp"
@@ -56,6 +57,7 @@ struct HeadConfig {
   int focus_step = 1600;
   AimConfig aim;
   TiltConfig look_up;
+  LensChoiceConfig lens;
   ReferencePose reference;
   CalibrationPlan plan;
   HeadGeometry drawing;  ///< where a calibration starts
@@ -68,7 +70,7 @@ struct HeadConfig {
   VideoConfig video;
 
   void Describe(Archive& a);
-  /// Setting of all looks; each look sets the pan itself.
+  /// Setting of all looks; each look sets the pan itself, and with `lens.choose` zoom and focus.
   HeadSetting LookSetting() const;
   /// Setting at which the third camera sees the laser's line.
   HeadSetting WatchSetting() const;

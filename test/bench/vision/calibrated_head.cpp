@@ -72,7 +72,9 @@ head::CameraModel ExactCamera(const world::HeadBuild& build, int camera, const w
   return {world::ImageFromBase(real), real.centre_px, real.focal_px, real.k1, real.k2};
 }
 
-CalibratedHead CalibrateSpecimen(std::uint64_t seed, bool exactly_placed) {
+namespace {
+
+CalibratedHead Calibrate(std::uint64_t seed, bool exactly_placed, const head::CalibrationPlan& plan) {
   Rng rng = Rng::Stream(seed, "calibration");
   CalibratedHead head{world::HeadBuild::Specimen(seed), {}, Misplaced(rng)};
   if (exactly_placed) head.misplacement.setIdentity();
@@ -81,7 +83,7 @@ CalibratedHead CalibrateSpecimen(std::uint64_t seed, bool exactly_placed) {
                         real = object.Moved(head.misplacement * nominal);
   std::vector<head::HeadView> views;
   int exposure = 0;
-  for (const head::HeadSetting& setting : PlanAroundLooks().Settings()) {
+  for (const head::HeadSetting& setting : plan.Settings()) {
     const world::HeadAxes axes = RestAfter(setting, rng);
     for (int c = 0; c < head::kCameras; ++c) {
       head::HeadView view{setting, exposure, c,
@@ -96,6 +98,16 @@ CalibratedHead CalibrateSpecimen(std::uint64_t seed, bool exactly_placed) {
   head.model = std::move(solved->model);
   head.model.base_covariance = head::PlacementCovariance(kStand, kPlace_m, Radians(kTurn_deg));
   return head;
+}
+
+}  // namespace
+
+CalibratedHead CalibrateSpecimen(std::uint64_t seed, bool exactly_placed) {
+  return Calibrate(seed, exactly_placed, PlanAroundLooks());
+}
+
+CalibratedHead CalibrateSpecimenWholly(std::uint64_t seed) {
+  return Calibrate(seed, false, {});
 }
 
 }  // namespace priamos::bench

@@ -93,4 +93,14 @@ LandmarkLook DoorPhotographer::Take(std::uint64_t seed, Trouble trouble, const C
   return look;
 }
 
+LandmarkLook DoorPhotographer::Take(std::uint64_t seed, const LensTrial& trial, const CalibratedHead& head) {
+  LookStage stage = MakeStage(seed, Trouble::kNone);
+  stage.distance_m = trial.distance_m;
+  stage.doubt = trial.doubt;
+  stage.choose_lens = trial.choose;
+  stage.focus_by_distance = true;
+  stage.plan.wall_material = trial.wall;
+  return TakeLook(stage, head, {}, static_cast<int>(seed % 3), seed);
+}
+
 }  // namespace priamos::bench

@@ -8,10 +8,6 @@
 
 namespace priamos::bench {
 
-Eigen::Matrix3d LookBelief() {
-  return Eigen::Vector3d(0.115 * 0.115, 0.115 * 0.115, 0.05 * 0.05).asDiagonal();
-}
-
 Eigen::Vector3d ErrorOf(const Pose2& found, const Pose2& truth) {
   return {found.x - truth.x, found.y - truth.y, WrapAngle(found.yaw - truth.yaw)};
 }
@@ -39,7 +35,7 @@ head::LandmarkFix Fixer::Find(const LandmarkLook& look, const head::LandmarkFixO
   for (int c = 0; c < 2; ++c) edge_operator.Extract(look.images[c], edges[c]);
   edge_seconds = CpuSeconds() - start;
   const head::LandmarkFix fix = head::LandmarkFinder(options).Find(
-      model, {look.believed, LookBelief()}, {MakeView(cameras[0], edges[0]), MakeView(cameras[1], edges[1])});
+      model, {look.believed, look.belief}, {MakeView(cameras[0], edges[0]), MakeView(cameras[1], edges[1])});
   seconds = CpuSeconds() - start;
   return fix;
 }

@@ -9,9 +9,6 @@
 
 namespace priamos::bench {
 
-/// Covariance of (x, y, yaw) of what is believed of the landmark: 20 cm and 5 degrees at most.
-Eigen::Matrix3d LookBelief();
-
 /// Error of a pose of the landmark in the base frame, seen along its x axis: depth, lateral, heading.
 Eigen::Vector3d ErrorOf(const Pose2& found, const Pose2& truth);
 

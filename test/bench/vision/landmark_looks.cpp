@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
 #include <cmath>
 
 #include "common/config.hpp"
 #include "head/core/motion/aim.hpp"
 #include "head/core/motion/aim_tilt.hpp"
+#include "head/core/motion/lens_choice.hpp"
 #include "head/head_config.hpp"
 #include "test/bench/vision/true_axes.hpp"
 
@@ -26,26 +28,45 @@ head::LandmarkModel Tolerated(head::LandmarkModel model, const LookTolerances& t
   return model;
 }
 
-/// Setting of the head for a look, with the shipped configuration of the simulated head.
-head::HeadSetting LookAt(const head::HeadModel& head, const head::LandmarkModel& model, const Pose2& believed,
-                         int side) {
+/// The base in the landmark's frame, such that head::Predict gives what is believed.
+head::PoseSample StandingAt(const LandmarkLook& look) {
+  head::PoseSample robot;
+  robot.map_from_base = look.believed.Inverse();
+  Eigen::Matrix3d j = Eigen::Matrix3d::Zero();
+  j.topLeftCorner<2, 2>() = -robot.map_from_base.rotation().transpose();
+  j.col(2) = Eigen::Vector3d(look.believed.y, -look.believed.x, -1);
+  robot.covariance = j.inverse() * look.belief * j.inverse().transpose();
+  return robot;
+}
+
+/// Setting of the head for a look, with the shipped configuration of the simulated head. A base that chooses
+/// its lens stands, its motors at the setting of all looks.
+head::HeadSetting LookAt(const head::HeadModel& head, head::LandmarkModel model, const LandmarkLook& look,
+                         int side, bool choose_lens) {
   static const auto kConfig = LoadConfig<head::HeadConfig>(InSim("head.toml"));
   head::HeadSetting setting = kConfig.LookSetting();
-  const Eigen::Matrix3d covariance = Eigen::Vector3d(0.115 * 0.115, 0.115 * 0.115, 0.05 * 0.05).asDiagonal();
-  setting.tilt_rad = head::AimTilt(head, setting, model, believed, kConfig.look_up);
-  setting.pan_rad = head::AimPan(head, setting, model, {believed, covariance}, side, kConfig.aim);
+  setting.tilt_rad = head::AimTilt(head, setting, model, look.believed, kConfig.look_up);
+  if (choose_lens) {
+    model.map_from_landmark = {};
+    const head::PoseSample robot = StandingAt(look);
+    setting = head::ChooseLens(head, setting, setting, {model, robot, side}, kConfig.aim, kConfig.lens,
+                               kConfig.motors.approach_steps);
+  } else {
+    setting.pan_rad = head::AimPan(head, setting, model, {look.believed, look.belief}, side, kConfig.aim);
+  }
   setting.pan_rad = std::round(setting.pan_rad / 0.0001) * 0.0001;  // whole steps
   return setting;
 }
 
 /// What is believed is nominal; the truth lies around it.
-void DrawPoses(double distance_m, Rng& rng, LandmarkLook& look) {
+void DrawPoses(double distance_m, double doubt, Rng& rng, LandmarkLook& look) {
   const Pose2 believed{-distance_m, 0, 0};
-  const double radius = 0.2 * std::sqrt(rng.Uniform(0, 1)), bearing = rng.Uniform(-kPi, kPi);
+  const double radius = doubt * 0.2 * std::sqrt(rng.Uniform(0, 1)), bearing = rng.Uniform(-kPi, kPi);
   const Pose2 truth{believed.x + radius * std::cos(bearing), radius * std::sin(bearing),
-                    Radians(rng.Uniform(-5, 5))};
+                    Radians(doubt * rng.Uniform(-5, 5))};
   look.believed = believed.Inverse();
   look.truth = truth.Inverse();
+  look.belief = doubt * doubt * LookBelief();
 }
 
 std::string NameOf(int side, int visit) {
@@ -53,6 +74,10 @@ std::string NameOf(int side, int visit) {
 }
 
 }  // namespace
+
+Eigen::Matrix3d LookBelief() {
+  return Eigen::Vector3d(0.115 * 0.115, 0.115 * 0.115, 0.05 * 0.05).asDiagonal();
+}
 
 std::string InSim(const std::string& name) {
   return PRIAMOS_SOURCE_DIR "/config/sim/" + name;
@@ -74,10 +99,12 @@ LandmarkLook TakeLook(const LookStage& stage, const CalibratedHead& head, const 
   look.base_covariance = head.model.base_covariance;
   if (stage.visit > 0) rng = Rng::Stream(seed, fmt::format("visit {}", stage.visit));
   const double distance_m = stage.visit > 0 ? rng.Uniform(1.8, 3.2) : stage.distance_m;
-  DrawPoses(distance_m + head.build.x_m, rng, look);
+  DrawPoses(distance_m + head.build.x_m, stage.doubt, rng, look);
 
-  const head::HeadSetting setting = look.setting = LookAt(head.model, look.exact_model, look.believed, side);
+  const head::HeadSetting setting = look.setting =
+      LookAt(head.model, look.exact_model, look, side, stage.choose_lens);
   world::RendererConfig config;
+  config.imaging.focus_by_distance = stage.focus_by_distance;
   config.scene = stage.light;
   config.head = head.build;
   world::Renderer renderer(config, world::BuildSolids(stage.map, stage.plan, seed), seed);

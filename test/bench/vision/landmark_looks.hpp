@@ -24,13 +24,16 @@ struct CalibratedHead {
 /// Calibrates specimen `seed` as priamos-head does, around the zoom of the looks; throws std::runtime_error
 /// if that fails. With `exactly_placed` all other errors are the same.
 CalibratedHead CalibrateSpecimen(std::uint64_t seed, bool exactly_placed = false);
+/// The same over the whole of zoom and focus, by the shipped plan.
+CalibratedHead CalibrateSpecimenWholly(std::uint64_t seed);
 
 /// One stereo pair of a landmark with all that is known of it.
 struct LandmarkLook {
   std::array<cv::Mat, 2> images;
   std::array<head::CameraModel, 2> calibrated, exact;
-  head::HeadSetting setting;  ///< of the motors
-  Pose2 truth, believed;      ///< base_from_landmark
+  head::HeadSetting setting;                         ///< of the motors
+  Pose2 truth, believed;                             ///< base_from_landmark
+  Eigen::Matrix3d belief = Eigen::Matrix3d::Zero();  ///< covariance of `believed`
   bool is_there = true;
   double leaf_open_deg = 0;         ///< as it stands, Trouble::kLeafMoved only
   head::LandmarkModel model;        ///< as given to the finder: every edge off by the tolerance
@@ -50,8 +53,14 @@ struct LookStage {
   world::SceneConfig light;
   planner::Landmark landmark;  ///< as the planner's map has it
   double distance_m = 2.4;     ///< of the head
-  int visit = 0;  ///< later ones: the same landmark, as far off its model, from 1.8 to 3.2 m before it
+  int visit = 0;     ///< later ones: the same landmark, as far off its model, from 1.8 to 3.2 m before it
+  double doubt = 1;  ///< how wrong the belief is: 1 up to 20 cm and 5 degrees
+  bool choose_lens = false;        ///< zoom and focus for this look, instead of those of all looks
+  bool focus_by_distance = false;  ///< world::ImagingConfig
 };
+
+/// Covariance of (x, y, yaw) of what is believed of the landmark: 20 cm and 5 degrees at most.
+Eigen::Matrix3d LookBelief();
 
 /// A file of the shipped simulation.
 std::string InSim(const std::string& name);

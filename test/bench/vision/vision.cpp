@@ -1,7 +1,7 @@
 // How well the head sees: every figure that is promised, beside the public state of the art on the same
 // images in the same run.
 //   bench_vision [--quick] [--photo FILE]... [--pair LEFT RIGHT CAMERA CAMERA]... [--only PART]...
-// PART: edges, stereo, photometry, order, door, rooms, repeated, cupboard, budget, deceptions, leaves,
+// PART: edges, stereo, photometry, order, door, lens, rooms, repeated, cupboard, budget, deceptions, leaves,
 // bodies, castle, detection, corridor, laser. Prints one line per figure with its bound; exit 1 if one is
 // missed.
 #include <CLI/CLI.hpp>
@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
       ->check(CLI::ExistingFile)
       ->expected(4, 400);
   app.add_option("--only", only, "these parts only")
-      ->check(CLI::IsMember({"edges", "stereo", "photometry", "order", "door", "rooms", "repeated",
+      ->check(CLI::IsMember({"edges", "stereo", "photometry", "order", "door", "lens", "rooms", "repeated",
                              "cupboard", "budget", "deceptions", "leaves", "bodies", "castle", "detection",
                              "corridor", "laser"}));
   CLI11_PARSE(app, argc, argv);
@@ -36,6 +36,7 @@ int main(int argc, char** argv) {
   if (wanted("photometry")) BenchPhotometry(options, figures);
   if (wanted("order")) BenchOrder(options, figures);
   if (wanted("door")) BenchDoor(options, figures);
+  if (wanted("lens")) BenchLens(options, figures);
   if (wanted("rooms")) BenchRooms(options, figures);
   if (wanted("repeated")) BenchRepeated(options, figures);
   if (wanted("cupboard")) BenchCupboard(options, figures);

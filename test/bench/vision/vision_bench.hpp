@@ -43,6 +43,10 @@ void BenchRepeated(const VisionOptions& options, Figures& figures);
 /// reach (Cramer-Rao).
 void BenchBudget(const VisionOptions& options, Figures& figures);
 
+/// The door from near and far, with one setting of zoom and focus for all looks, and with one chosen for
+/// each.
+void BenchLens(const VisionOptions& options, Figures& figures);
+
 /// The doors of made-up buildings, whose plan a person with a tape made; absent, or another one in its place.
 void BenchRooms(const VisionOptions& options, Figures& figures);
 

@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "common/image_size.hpp"
+#include "head/core/landmark/prediction.hpp"
 
 namespace priamos::head {
 namespace {
 
-constexpr double kWidth_px = ImageSize{}.width;
+constexpr double kWidth_px = ImageSize{}.width, kHeight_px = ImageSize{}.height;
 constexpr double kStep_rad = 0.005;
+constexpr double kBehind_px = 1e6;  // outside of every picture
 
 /// Where an upright edge is expected: half way up to the height of the cameras, so that it is in every
 /// picture that shows its bearing.
@@ -20,40 +23,58 @@ struct Target {
   double bearing_sigma_rad;  ///< seen from the pan axis
 };
 
+Target TargetOf(const HeadGeometry& head, const LandmarkEdge& edge, const LandmarkPrediction& prediction) {
+  Eigen::Vector3d p = Lift(prediction.base_from_landmark) * edge.from;
+  const Eigen::Vector2d r = p.head<2>() - prediction.base_from_landmark.translation();
+  const Eigen::Vector2d d = p.head<2>() - Eigen::Vector2d(head.x_m, head.y_m);
+  p.z() = head.z_m;
+  // The point moves with (x, y, yaw) of the landmark; what counts is its motion across the line of sight.
+  Eigen::Matrix<double, 2, 3> jacobian;
+  jacobian << 1, 0, -r.y(), 0, 1, r.x();
+  const Eigen::RowVector2d across(-d.y(), d.x());
+  const Eigen::RowVector3d row = across * jacobian / d.squaredNorm();
+  return {p, std::sqrt(std::max(0.0, (row * prediction.covariance * row.transpose()).value()))};
+}
+
 std::vector<Target> Targets(const HeadGeometry& head, const LandmarkModel& model,
                             const LandmarkPrediction& prediction, bool (*wanted)(int edge_side, int side),
                             int side) {
-  const Eigen::Isometry3d base_from_landmark = Lift(prediction.base_from_landmark);
   std::vector<Target> targets;
   for (const LandmarkEdge& edge : model.edges) {
     if (!edge.IsVertical() || edge.IsMovable() || !wanted(edge.side, side)) continue;
-    Eigen::Vector3d p = base_from_landmark * edge.from;
-    const Eigen::Vector2d r = p.head<2>() - prediction.base_from_landmark.translation();
-    const Eigen::Vector2d d = p.head<2>() - Eigen::Vector2d(head.x_m, head.y_m);
-    p.z() = head.z_m;
-    // The point moves with (x, y, yaw) of the landmark; what counts is its motion across the line of sight.
-    Eigen::Matrix<double, 2, 3> jacobian;
-    jacobian << 1, 0, -r.y(), 0, 1, r.x();
-    const Eigen::RowVector2d across(-d.y(), d.x());
-    const Eigen::RowVector3d row = across * jacobian / d.squaredNorm();
-    targets.push_back({p, std::sqrt(std::max(0.0, (row * prediction.covariance * row.transpose()).value()))});
+    targets.push_back(TargetOf(head, edge, prediction));
   }
   return targets;
 }
 
+double Beyond(double at_px, double margin_px, double size_px) {
+  return std::max({0.0, margin_px - at_px, at_px - (size_px - 1 - margin_px)});
+}
+
 /// Largest distance of a target from the usable part of a picture [px]; 0 if all are in both.
-double Missing(const std::array<CameraModel, 2>& cameras, const std::vector<Target>& targets,
+double Missing(const std::array<CameraModel, 2>& cameras, std::span<const Target> targets,
                const AimConfig& config) {
   double worst = 0;
   for (const CameraModel& camera : cameras) {
     for (const Target& t : targets) {
-      if (!(camera.Depth(t.in_base) > 0.1)) return 1e6;
-      const double u = camera.Project(t.in_base).x();
+      if (!(camera.Depth(t.in_base) > 0.1)) return kBehind_px;
       const double margin = config.margin_px + config.sigmas * t.bearing_sigma_rad * camera.scale_px;
-      worst = std::max({worst, margin - u, u - (kWidth_px - 1 - margin)});
+      worst = std::max(worst, Beyond(camera.Project(t.in_base).x(), margin, kWidth_px));
     }
   }
   return worst;
+}
+
+/// The same for a point of a level edge, which is seen at its height wherever it is along the edge.
+double MissingInHeight(const CameraModel& camera, const Eigen::Vector3d& in_base,
+                       const LandmarkPrediction& prediction, const AimConfig& config) {
+  if (!(camera.Depth(in_base) > 0.1)) return kBehind_px;
+  const Eigen::Matrix<double, 3, 6> pose = PoseJacobian(Lift(prediction.base_from_landmark), in_base);
+  Eigen::Matrix3d floor;
+  floor << pose.col(0), pose.col(1), pose.col(5);
+  const Eigen::RowVector3d row = ProjectionJacobian(camera, in_base).row(1) * floor;
+  const double sigma = std::sqrt(std::max(0.0, (row * prediction.covariance * row.transpose()).value()));
+  return Beyond(camera.Project(in_base).y(), config.margin_px + config.sigmas * sigma, kHeight_px);
 }
 
 double Bearing(const HeadGeometry& head, const std::vector<Target>& targets) {
@@ -77,6 +98,23 @@ void AimConfig::Describe(Archive& a) {
   a.Number("sigmas", sigmas, {"-", 0, 5, "and so many standard deviations of where they are expected"});
   a.Number("max_pan_deg", max_pan_deg, {"deg", 1, 110, "farther the head does not turn"});
   a.Number("lead_s", lead_s, {"s", 0, 3, "the robot drives on until the picture is taken"});
+}
+
+double OutsideBy(const HeadGeometry& head, const std::array<CameraModel, 2>& cameras,
+                 const LandmarkEdge& edge, const LandmarkPrediction& prediction, const AimConfig& config) {
+  if (edge.IsMovable()) return kBehind_px;
+  if (edge.IsVertical()) {
+    const Target target = TargetOf(head, edge, prediction);
+    return Missing(cameras, std::span(&target, 1), config);
+  }
+  if (!edge.IsLevel()) return kBehind_px;
+  const Eigen::Isometry3d base_from_landmark = Lift(prediction.base_from_landmark);
+  double worst = 0;
+  for (const CameraModel& camera : cameras) {
+    for (const Eigen::Vector3d& end : {edge.from, edge.to})
+      worst = std::max(worst, MissingInHeight(camera, base_from_landmark * end, prediction, config));
+  }
+  return worst;
 }
 
 double AimPan(const HeadModel& head, const HeadSetting& base, const LandmarkModel& model,

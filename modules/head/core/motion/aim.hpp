@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "common/archive.hpp"
 #include "head/core/camera/head_model.hpp"
 #include "head/core/landmark/landmark.hpp"
@@ -25,6 +27,13 @@ struct AimConfig {
 /// landmark has no upright edges. `base` gives all axes but the pan.
 double AimPan(const HeadModel& head, const HeadSetting& base, const LandmarkModel& model,
               const LandmarkPrediction& prediction, int side, const AimConfig& config);
+
+/// How far [px] one edge of the model may be outside of the usable part of a picture, of the worse one of
+/// both: margin and standard deviations are added to its place. 0: it is in both for certain. An upright edge
+/// counts by its bearing, a level one by its height in the picture; other edges, and movable ones, are
+/// nowhere.
+double OutsideBy(const HeadGeometry& head, const std::array<CameraModel, 2>& cameras,
+                 const LandmarkEdge& edge, const LandmarkPrediction& prediction, const AimConfig& config);
 
 /// The same for a robot that was at `robot` and drives on for the lead time.
 double AimPan(const HeadModel& head, const HeadSetting& base, const LandmarkModel& model, PoseSample robot,

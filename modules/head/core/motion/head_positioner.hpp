@@ -45,6 +45,8 @@ class HeadPositioner {
   /// Setting to command now, if any. Call it at every tick with the newest report, null before the first.
   std::optional<HeadSetting> Step(const HeadReport* report, Time now);
 
+  /// Where it was sent last.
+  const HeadSetting& goal() const { return goal_; }
   /// Whether the head rests at the goal, and did so for the settling time.
   bool settled() const { return phase_ == Phase::kSettled; }
   /// Whether the goal was not reached in time, or no report came.

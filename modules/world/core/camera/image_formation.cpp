@@ -6,6 +6,7 @@
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 
+#include "world/core/camera/defocus.hpp"
 #include "world/core/camera/normal_table.hpp"
 
 namespace priamos::world {
@@ -14,17 +15,6 @@ namespace {
 
 constexpr double kNominalExposure_s = 0.010;
 constexpr double kCornerRadius2 = 0.36;  // (480 px / 800 px)^2
-
-/// Area of a pixel and Gaussian blur in one, on the fine grid.
-cv::Mat PixelKernel(double sigma_px) {
-  const double sigma = std::max(FineGrid::kScale * sigma_px, 0.05), half = FineGrid::kScale / 2.0;
-  const int reach = static_cast<int>(std::ceil(3.5 * sigma + half));
-  cv::Mat kernel(1, 2 * reach + 1, CV_32F);
-  const auto below = [sigma](double x) { return 0.5 * std::erfc(-x / (sigma * std::sqrt(2.0))); };
-  for (int i = -reach; i <= reach; ++i)
-    kernel.at<float>(i + reach) = float(below(i + half) - below(i - half));
-  return kernel / cv::sum(kernel)[0];
-}
 
 /// Functions of the distorted radius, tabulated over its square: how far to stretch to undo the distortion,
 /// and how much light is left.
@@ -85,9 +75,14 @@ Eigen::Vector2d SubSample(int k, int n) {
 
 GreyImage FormImage(const ImagingConfig& config, const TrueCamera& camera, double defocus_px,
                     const cv::Mat& light, const Exposure& exposure, Rng& rng) {
-  const cv::Mat kernel = PixelKernel(std::hypot(config.blur_px, defocus_px));
-  cv::Mat blurred;
-  cv::sepFilter2D(light, blurred, CV_32F, kernel, kernel, {-1, -1}, 0, cv::BORDER_REPLICATE);
+  return FormImage(config, camera, cv::Mat(1, 1, CV_64F, cv::Scalar(defocus_px)), light, exposure, rng);
+}
+
+GreyImage FormImage(const ImagingConfig& config, const TrueCamera& camera, const cv::Mat& defocus_px,
+                    const cv::Mat& light, const Exposure& exposure, Rng& rng) {
+  cv::Mat sigma_px = defocus_px.clone();
+  for (double& sigma : cv::Mat_<double>(sigma_px)) sigma = std::hypot(config.blur_px, sigma);
+  const cv::Mat blurred = Blurred(light, sigma_px);
 
   const LensTable lens(camera, config.vignetting);
   const bool tangential = camera.p1 != 0 || camera.p2 != 0;  // no longer a function of the radius alone

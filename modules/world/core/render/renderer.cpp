@@ -1,6 +1,7 @@
 #include "world/core/render/renderer.hpp"
 
 #include <algorithm>
+#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
 #include "world/core/camera/image_formation.hpp"
@@ -95,9 +96,13 @@ class Renderer::Impl {
     const Eigen::Isometry3d map_from_camera = Lift(middle.map_from_base) * middle_camera.base_from_camera;
     scene_.SortFrom(map_from_camera.translation());
     Collect(camera, opening, closing, exposure);
-    const double defocus =
-        config_.imaging.defocus_px * middle_camera.focal_px / 1000 *
-        (middle_camera.focus_dioptre + exposure.defocus_dioptre - SceneDioptre(map_from_camera));
+    const double px_per_dioptre = config_.imaging.defocus_px * middle_camera.focal_px / 1000;
+    const double focus = middle_camera.focus_dioptre + exposure.defocus_dioptre;
+    if (config_.imaging.focus_by_distance && !reference_) {
+      const cv::Mat defocus = px_per_dioptre * (focus - Dioptres(map_from_camera, middle_camera));
+      return FormImage(config_.imaging, middle_camera, defocus, light_, exposure, rng);
+    }
+    const double defocus = px_per_dioptre * (focus - SceneDioptre(map_from_camera));
     return FormImage(config_.imaging, middle_camera, defocus, light_, exposure, rng);
   }
 
@@ -161,6 +166,25 @@ class Renderer::Impl {
       float* to = light_.ptr<float>(y);
       for (int x = 0; x < picture.cols; ++x) to[x] += w * from[std::ptrdiff_t{3} * x];
     }
+  }
+
+  /// Inverse distances over the fine grid, a ray for each 8 pixels of the image. Where something ends, what
+  /// is behind it is as sharp as it for some pixels: the edge is the nearer one's.
+  cv::Mat Dioptres(const Eigen::Isometry3d& map_from_camera, const TrueCamera& camera) const {
+    constexpr int kCell = 8 * FineGrid::kScale;
+    cv::Mat dioptres(FineGrid::kHeight / kCell, FineGrid::kWidth / kCell, CV_64F);
+    const Eigen::Vector3d eye = map_from_camera.translation();
+    const Eigen::Vector2d centre = FineGrid::FromImage(camera.centre_px);
+    const double focal = FineGrid::kScale * camera.focal_px;
+    for (int y = 0; y < dioptres.rows; ++y) {
+      for (int x = 0; x < dioptres.cols; ++x) {
+        const Eigen::Vector2d at = (Eigen::Vector2d(x + 0.5, y + 0.5) * kCell - centre) / focal;
+        const Eigen::Vector3d ray = map_from_camera.linear() * at.homogeneous().normalized();
+        dioptres.at<double>(y, x) = 1 / std::max(lighting_->Distance(eye, ray, kFarthest_m), 0.1);
+      }
+    }
+    cv::dilate(dioptres, dioptres, cv::Mat::ones(5, 5, CV_8U));
+    return dioptres;
   }
 
   /// Inverse distance of what is in view: the lens has one blur for the whole picture.
