@@ -14,6 +14,8 @@ constexpr double kPinClearance_m = 0.005;
 /// Gap between leaf and frame all around, and under the leaf.
 constexpr double kLeafPlay_m = 0.003;
 constexpr double kLeafLow_m = 0.01;
+/// No two surfaces of a room differ by more.
+constexpr double kMostTimesAsBright = 20;
 
 }  // namespace
 
@@ -48,6 +50,8 @@ void DoorPlan::Describe(Archive& a) {
   a.Text("leaf", leaf, "hinges of the leaf, left or right, if its angle is known; none; or unknown");
   a.Number("leaf_open_deg", leaf_open_deg, {"deg", 0, 175, "angle of the leaf, 0 is closed"});
   a.Number("leaf_thickness_m", leaf_thickness_m, {"m", 0.01, 0.1, "thickness of the leaf"});
+  a.Number("frame_over_wall", frame_over_wall,
+           {"-", 0, kMostTimesAsBright, "how many times as bright the frame is as the wall; 0: not known"});
   a.Integer("behind_id", behind_id,
             {"-", 0, kLastLandmarkId, "number of its landmark from behind; 0: passed from the front only"});
   if (rebate_depth_m >= wall_thickness_m) a.Refuse("rebate_depth_m", "less than wall_thickness_m");
@@ -80,6 +84,8 @@ void CupboardPlan::Describe(Archive& a) {
   a.Integer("n_doors", n_doors, {"-", 1, 5, "doors side by side"});
   a.Number("gap_m", gap_m, {"m", 0, 0.1, "between two doors"});
   a.Number("plinth_m", plinth_m, {"m", 0, 0.5, "height of the plinth under the doors"});
+  a.Number("plinth_over_front", plinth_over_front,
+           {"-", 0, kMostTimesAsBright, "how many times as bright the plinth is as the doors; 0: not known"});
   if (plinth_m >= height_m) a.Refuse("plinth_m", "less than height_m");
 }
 

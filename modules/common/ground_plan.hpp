@@ -52,6 +52,7 @@ struct DoorPlan {
   std::string leaf = "unknown";  ///< hinges of the leaf, "left" or "right", if its angle is known; or "none"
   double leaf_open_deg = 0;      ///< 0 is closed; it opens into the far room
   double leaf_thickness_m = 0.04;
+  double frame_over_wall = 0;  ///< how many times as bright the frame's face is as the wall; 0: not known
   int behind_id = 0;  ///< number of its landmark for who stands behind it; 0: nobody looks at it from there
 
   void Describe(Archive& a);
@@ -82,9 +83,10 @@ struct CupboardPlan {
   double x_m = 0, y_m = 0;  ///< map, origin
   double yaw_deg = 0;       ///< map, direction into the cupboard
   double width_m = 1.0, depth_m = 0.4, height_m = 1.8;
-  int n_doors = 2;         ///< side by side
-  double gap_m = 0.004;    ///< between two doors
-  double plinth_m = 0.09;  ///< height of the plinth under the doors, 0 if there is none
+  int n_doors = 2;               ///< side by side
+  double gap_m = 0.004;          ///< between two doors
+  double plinth_m = 0.09;        ///< height of the plinth under the doors, 0 if there is none
+  double plinth_over_front = 0;  ///< how many times as bright the plinth is as the doors; 0: not known
 
   void Describe(Archive& a);
 

@@ -10,6 +10,7 @@ namespace priamos::head {
 namespace {
 
 constexpr double kMinEdge_m = 0.02;
+constexpr double kMaxGreyRatio = 3;  // logarithm
 constexpr std::size_t kMaxViewEdges = 28;
 constexpr int kMaxLeftOut = 255;
 constexpr std::size_t kMaxPieces = 4, kMaxPiecesLeftOut = 63;
@@ -99,11 +100,13 @@ std::optional<LandmarkModel> FromMessage(const landmark_model_t& message) {
   if (!AllFinite({message.x_m, message.y_m, message.yaw_rad})) return std::nullopt;
   LandmarkModel model{message.landmark_id, {message.x_m, message.y_m, WrapAngle(message.yaw_rad)}, {}};
   for (const landmark_edge_t& e : message.edges) {
-    if (!AllFinite({e.x1_m, e.y1_m, e.z1_m, e.x2_m, e.y2_m, e.z2_m, e.visible_from_rad, e.visible_to_rad})) {
+    if (!AllFinite({e.x1_m, e.y1_m, e.z1_m, e.x2_m, e.y2_m, e.z2_m, e.visible_from_rad, e.visible_to_rad,
+                    e.grey_ratio})) {
       return std::nullopt;
     }
     LandmarkEdge edge{
         {e.x1_m, e.y1_m, e.z1_m}, {e.x2_m, e.y2_m, e.z2_m}, e.visible_from_rad, e.visible_to_rad, e.side};
+    if (e.grey_ratio != 0) edge.grey_ratio = std::clamp<double>(e.grey_ratio, -kMaxGreyRatio, kMaxGreyRatio);
     if ((edge.to - edge.from).norm() > kMinEdge_m) model.edges.push_back(edge);
   }
   return model;

@@ -93,9 +93,10 @@ landmark_edge_t ToMessage(const LandmarkEdge& edge) {
   message.x2_m = edge.to.x();
   message.y2_m = edge.to.y();
   message.z2_m = edge.to.z();
-  message.visible_from_rad = edge.visible_from_rad;
-  message.visible_to_rad = edge.visible_to_rad;
+  message.visible_from_rad = static_cast<float>(edge.visible_from_rad);
+  message.visible_to_rad = static_cast<float>(edge.visible_to_rad);
   message.side = static_cast<std::int8_t>(edge.side);
+  message.grey_ratio = static_cast<float>(edge.grey_ratio.value_or(0));
   return message;
 }
 

@@ -284,6 +284,7 @@ TEST(HeadMessagesTest, EdgesWithoutLengthAreLeftOutOfALandmark) {
   message.edges[0].side = 1;
   message.edges[0].visible_from_rad = -1;
   message.edges[0].visible_to_rad = 1;
+  message.edges[0].grey_ratio = 0.4F;
   message.edges[1].z2_m = 0.01;
   message.n_edges = 2;
   const auto dut = FromMessage(message);
@@ -294,6 +295,14 @@ TEST(HeadMessagesTest, EdgesWithoutLengthAreLeftOutOfALandmark) {
   EXPECT_EQ(dut->edges[0].to, Eigen::Vector3d(0, 0, 2));
   EXPECT_EQ(dut->edges[0].side, 1);
   EXPECT_EQ(dut->edges[0].visible_to_rad, 1);
+  EXPECT_NEAR(dut->edges[0].grey_ratio.value(), 0.4, 1e-6);
+  message.edges[0].grey_ratio = 0;
+  EXPECT_FALSE(FromMessage(message)->edges[0].grey_ratio) << "not known";
+  message.edges[0].grey_ratio = 99;
+  EXPECT_EQ(FromMessage(message)->edges[0].grey_ratio, 3);
+  message.edges[0].grey_ratio = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(FromMessage(message));
+  message.edges[0].grey_ratio = 0;
   message.edges[1].y1_m = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(FromMessage(message));
 }

@@ -122,7 +122,9 @@ TEST(PlannerMessages, VerdictsAndLimitsHaveDifferentWords) {
 }
 
 TEST(PlannerMessages, LandmarkSurvivesTheWire) {
-  const Landmark door = MakeDoorLandmark(DoorPlan{});
+  DoorPlan plan;
+  plan.frame_over_wall = 1.5;
+  const Landmark door = MakeDoorLandmark(plan);
   const auto message = bus::Decode<landmark_model_t>(bus::Encode(ToMessage(door)));
   EXPECT_EQ(message.landmark_id, 1);
   ASSERT_EQ(message.n_edges, static_cast<int>(door.edges.size()));
@@ -130,9 +132,10 @@ TEST(PlannerMessages, LandmarkSurvivesTheWire) {
     const auto& edge = message.edges[i];
     EXPECT_EQ((Eigen::Vector3d(edge.x1_m, edge.y1_m, edge.z1_m)), door.edges[i].from);
     EXPECT_EQ((Eigen::Vector3d(edge.x2_m, edge.y2_m, edge.z2_m)), door.edges[i].to);
-    EXPECT_EQ(edge.visible_from_rad, door.edges[i].visible_from_rad);
-    EXPECT_EQ(edge.visible_to_rad, door.edges[i].visible_to_rad);
+    EXPECT_NEAR(edge.visible_from_rad, door.edges[i].visible_from_rad, 1e-6);
+    EXPECT_NEAR(edge.visible_to_rad, door.edges[i].visible_to_rad, 1e-6);
     EXPECT_EQ(edge.side, static_cast<int>(door.edges[i].side));
+    EXPECT_NEAR(edge.grey_ratio, door.edges[i].grey_ratio.value_or(0), 1e-6);
   }
 }
 

@@ -91,6 +91,8 @@ LookStage MakeStage(std::uint64_t seed, CupboardTrouble trouble) {
   if (trouble == CupboardTrouble::kAnother) Replace(cupboard, trouble_rng);
   if (trouble != CupboardTrouble::kAbsent) stage.plan.boxes.push_back(BoxOf(cupboard, "cupboard"));
   if (trouble == CupboardTrouble::kHalfHidden) stage.plan.boxes.push_back(InTheWay(cupboard, trouble_rng));
+  if (trouble == CupboardTrouble::kOtherLight)
+    stage.light.window_yaw_deg += 120, stage.light.brightness *= 0.6;
   if (trouble == CupboardTrouble::kLightsOut)
     stage.light.brightness *= std::exp(trouble_rng.Uniform(std::log(0.01), std::log(0.2)));
   return stage;
@@ -99,16 +101,18 @@ LookStage MakeStage(std::uint64_t seed, CupboardTrouble trouble) {
 }  // namespace
 
 const char* Describe(CupboardTrouble trouble) {
-  constexpr const char* kWords[] = {"nothing", "cupboard absent", "another cupboard", "half hidden",
-                                    "lights out"};
+  constexpr const char* kWords[] = {"nothing",     "cupboard absent", "another cupboard",
+                                    "half hidden", "lights out",      "other light"};
   return kWords[static_cast<int>(trouble)];
 }
 
 CupboardPhotographer::CupboardPhotographer() : graphics_(world::Renderer::HoldGraphics()) {}
 
 LandmarkLook CupboardPhotographer::Take(std::uint64_t seed, CupboardTrouble trouble,
-                                        const CalibratedHead& head) {
-  LandmarkLook look = TakeLook(MakeStage(seed, trouble), head, {}, 0, seed);
+                                        const CalibratedHead& head, int visit) {
+  LookStage stage = MakeStage(seed, trouble);
+  stage.visit = visit;
+  LandmarkLook look = TakeLook(stage, head, {}, 0, seed);
   look.is_there = trouble != CupboardTrouble::kAbsent && trouble != CupboardTrouble::kAnother;
   return look;
 }

@@ -8,7 +8,7 @@
 namespace priamos::bench {
 
 /// What is wrong with the scene, or nothing.
-enum class CupboardTrouble { kNone, kAbsent, kAnother, kHalfHidden, kLightsOut };
+enum class CupboardTrouble { kNone, kAbsent, kAnother, kHalfHidden, kLightsOut, kOtherLight };
 inline constexpr CupboardTrouble kCupboardTroubles[] = {CupboardTrouble::kAbsent, CupboardTrouble::kAnother,
                                                         CupboardTrouble::kHalfHidden,
                                                         CupboardTrouble::kLightsOut};
@@ -20,7 +20,7 @@ const char* Describe(CupboardTrouble trouble);
 class CupboardPhotographer {
  public:
   CupboardPhotographer();
-  LandmarkLook Take(std::uint64_t seed, CupboardTrouble trouble, const CalibratedHead& head);
+  LandmarkLook Take(std::uint64_t seed, CupboardTrouble trouble, const CalibratedHead& head, int visit = 0);
 
  private:
   std::shared_ptr<void> graphics_;

@@ -8,7 +8,7 @@
 namespace priamos::bench {
 
 /// What is wrong with the scene, or nothing.
-enum class Trouble { kNone, kDoorAbsent, kAnotherDoor, kHalfHidden, kLeafMoved, kLightsOut };
+enum class Trouble { kNone, kDoorAbsent, kAnotherDoor, kHalfHidden, kLeafMoved, kLightsOut, kOtherLight };
 inline constexpr Trouble kTroubles[] = {Trouble::kDoorAbsent, Trouble::kAnotherDoor, Trouble::kHalfHidden,
                                         Trouble::kLeafMoved, Trouble::kLightsOut};
 const char* Describe(Trouble trouble);

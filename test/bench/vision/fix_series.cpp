@@ -38,9 +38,11 @@ double FixSeries::MeanNees() const {
 
 void Print(std::uint64_t seed, const head::LandmarkFix& fix, const Eigen::Vector3d& error) {
   fmt::print(
-      "  seed {}: {}, {:.2f} {:.2f} mm {:.3f} deg, misfit {:.2f}, {} edges, log odds {:.1f}, rival {:.1f}\n",
+      "  seed {}: {}, {:.2f} {:.2f} mm {:.3f} deg, misfit {:.2f}, {} edges, log odds {:.1f} of {:.1f}, rival "
+      "{:.1f}, "
+      "side {:.2f}\n",
       seed, head::Describe(fix.verdict), 1000 * error.x(), 1000 * error.y(), Degrees(error.z()), fix.misfit,
-      fix.n_matched, fix.log_odds, fix.rival_log_odds);
+      fix.n_matched, fix.log_odds, fix.best_log_odds, fix.rival_log_odds, fix.side_share);
 }
 
 void Report(const FixSeries& s, Figures& figures) {

@@ -86,7 +86,8 @@ std::string InSim(const std::string& name) {
 head::LandmarkModel ToHead(const planner::Landmark& landmark) {
   head::LandmarkModel model{landmark.id, landmark.map_from_landmark, {}};
   for (const planner::LandmarkEdge& e : landmark.edges)
-    model.edges.push_back({e.from, e.to, e.visible_from_rad, e.visible_to_rad, static_cast<int>(e.side)});
+    model.edges.push_back(
+        {e.from, e.to, e.visible_from_rad, e.visible_to_rad, static_cast<int>(e.side), e.grey_ratio});
   return model;
 }
 

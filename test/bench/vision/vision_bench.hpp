@@ -53,6 +53,10 @@ void BenchRooms(const VisionOptions& options, Figures& figures);
 /// Scenes without the door, with another one, half hidden, with the leaf anywhere, nearly dark.
 void BenchDeceptions(const VisionOptions& options, Figures& figures);
 
+/// Landmarks looked at before, with and without what these looks showed of the grey values beside edges; in
+/// their place what deceives, or in other light.
+void BenchGreys(const VisionOptions& options, Figures& figures);
+
 /// The door with its leaf at any angle, which the map tells, or not, or wrongly.
 void BenchLeaves(const VisionOptions& options, Figures& figures);
 

@@ -15,7 +15,8 @@ Odds EdgeOdds(double distance, double density, const AssociationOptions& options
 double GreyOdds(const LandmarkEdge& edge, double measured, const AssociationOptions& options) {
   if (!edge.grey_ratio) return 0;
   const auto gauss = [](double x, double sigma) { return std::exp(-0.5 * x * x / (sigma * sigma)) / sigma; };
-  const double modelled = gauss(measured - *edge.grey_ratio, options.grey_sigma);
+  const double sigma = edge.grey_sigma > 0 ? edge.grey_sigma : options.grey_sigma;
+  const double modelled = gauss(measured - *edge.grey_ratio, sigma);
   const double any = gauss(measured, options.any_grey_sigma);
   return std::log((1 - options.grey_surprise) * modelled / any + options.grey_surprise);
 }

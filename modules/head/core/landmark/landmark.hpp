@@ -18,6 +18,7 @@ struct LandmarkEdge {
   /// Logarithm of the ratio of the grey values beside the edge in the image, right over left of its direction
   /// from -> to; nullopt: not known. A ratio, since lighting changes both alike.
   std::optional<double> grey_ratio{};
+  double grey_sigma = 0;  ///< of what a look measures about grey_ratio; 0: AssociationOptions::grey_sigma
 
   /// Part of something that may stand elsewhere, such as a door's leaf.
   bool IsMovable() const { return side == 3; }

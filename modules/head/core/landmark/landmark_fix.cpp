@@ -252,6 +252,7 @@ void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Ma
   fix.edge_shifts = best.solution.edge_shifts;
   fix.breadth = best.solution.breadth;
   fix.log_odds = best.association.log_odds;
+  fix.best_log_odds = best.association.best_log_odds;
   const double left = best.association.side_predicted_px[1], right = best.association.side_predicted_px[2];
   const double found_left = best.association.side_found_px[1],
                found_right = best.association.side_found_px[2];

@@ -48,6 +48,7 @@ struct LandmarkFix {
   double misfit = 0;                                     ///< PoseSolution::misfit
   double side_share = 1;      ///< found share of the visible length of the weaker side
   double log_odds = 0;        ///< Association::log_odds
+  double best_log_odds = 0;   ///< Association::best_log_odds
   double rival_log_odds = 0;  ///< log_odds of the best different pose
   std::vector<EdgeMatch> matches;
   EdgeShifts edge_shifts;  ///< PoseSolution::edge_shifts

@@ -9,9 +9,6 @@
 namespace priamos::head {
 namespace {
 
-/// So many looks in a row that do not show what is known: it is given up.
-constexpr int kContradicted = 3;
-
 LookResult Without(Verdict verdict) {
   LookResult result;
   result.fix.verdict = verdict;
@@ -36,26 +33,7 @@ LandmarkFix LookEvaluator::Find(const LookInput& input, const LandmarkPrediction
     edge_operator_.Extract(Wrap(*input.third), edges_[kThird]);
     all.push_back(MakeView(*third, edges_[kThird]));
   }
-  return FindAsKnown(*input.model, expected, all);
-}
-
-/// Where earlier looks saw its edges, or else, since these may have seen something else, where the model has
-/// them.
-LandmarkFix LookEvaluator::FindAsKnown(const LandmarkModel& model, const LandmarkPrediction& expected,
-                                       std::span<const CameraView> views) {
-  Known& known = known_[model.id];
-  if (!known.errors.empty()) {
-    LandmarkFix fix = finder_.Find(model, expected, views, &known.errors);
-    if (fix.verdict == Verdict::kFound) {
-      known = {fix.errors};
-      return fix;
-    }
-  }
-  const ModelErrors breadth = OnlyBreadth(known.errors, model, finder_.options().solver.VarianceOfModel());
-  LandmarkFix fix = finder_.Find(model, expected, views, &breadth);
-  if (fix.verdict == Verdict::kFound && (known.errors.empty() || ++known.contradicted == kContradicted))
-    known = {fix.errors};
-  return fix;
+  return known_[input.model->id].Find(finder_, *input.model, expected, all);
 }
 
 LookResult LookEvaluator::Evaluate(const LookInput& input) {

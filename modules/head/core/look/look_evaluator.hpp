@@ -12,6 +12,7 @@
 #include "head/core/landmark/landmark_fix.hpp"
 #include "head/core/landmark/landmark_view.hpp"
 #include "head/core/landmark/pose_history.hpp"
+#include "head/core/look/landmark_memory.hpp"
 
 namespace priamos::head {
 
@@ -53,13 +54,7 @@ class LookEvaluator {
   LookResult Evaluate(const LookInput& input);
 
  private:
-  struct Known {
-    ModelErrors errors{};  ///< empty: nothing
-    int contradicted = 0;  ///< looks in a row that found the landmark only without it
-  };
   LandmarkFix Find(const LookInput& input, const LandmarkPrediction& expected, const StereoViews& views);
-  LandmarkFix FindAsKnown(const LandmarkModel& model, const LandmarkPrediction& expected,
-                          std::span<const CameraView> views);
 
   HeadModel head_;
   LeafOptions leaf_options_;
@@ -67,7 +62,7 @@ class LookEvaluator {
   EdgeOperator edge_operator_;
   LandmarkFinder finder_;
   std::array<EdgeImage, kCameras> edges_;
-  std::map<int, Known> known_;  ///< by the landmark's id
+  std::map<int, LandmarkMemory> known_;  ///< by the landmark's id
 };
 
 }  // namespace priamos::head

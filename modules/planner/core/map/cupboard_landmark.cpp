@@ -1,6 +1,7 @@
 #include "planner/core/map/cupboard_landmark.hpp"
 
 #include <array>
+#include <cmath>
 
 #include "planner/core/map/box_skeleton.hpp"
 
@@ -44,8 +45,12 @@ Landmark MakeCupboardLandmark(const CupboardPlan& cupboard) {
                         Side::kBoth};
   Landmark landmark{cupboard.id, cupboard.map_from_cupboard(), SkeletonOf(std::array{box})};
   for (LandmarkEdge& edge : landmark.edges) edge.side = SideOf(edge, half);
-  if (cupboard.plinth_m > 0)
+  if (cupboard.plinth_m > 0) {
     landmark.edges.push_back(OnFront({0, -half, cupboard.plinth_m}, {0, half, cupboard.plinth_m}));
+    // It runs to the left: the doors are right of it.
+    if (cupboard.plinth_over_front > 0)
+      landmark.edges.back().grey_ratio = -std::log(cupboard.plinth_over_front);
+  }
   AddGaps(cupboard, landmark.edges);
   return landmark;
 }

@@ -44,6 +44,18 @@ void AddLintelEdge(std::vector<LandmarkEdge>& edges, double x, double half_width
       {{x, -half_width, z}, {x, half_width, z}, kApproachSide.from_rad, kApproachSide.to_rad, Side::kBoth});
 }
 
+/// Tells which of the first edges are those between frame and wall, and how bright both are. The frame is
+/// right of the left one, left of the right one (both run up), and below that of the lintel, which runs to
+/// the left.
+void AddGreys(const DoorPlan& door, std::vector<LandmarkEdge>& edges) {
+  constexpr std::size_t kLintel = 6;  // behind three edges of either jamb
+  if (door.frame_over_wall <= 0) return;
+  const double ratio = std::log(door.frame_over_wall);
+  edges[0].grey_ratio = ratio;
+  edges[1].grey_ratio = -ratio;
+  edges[kLintel].grey_ratio = -ratio;
+}
+
 /// Viewers who see the left stop past the arris of its own rebate.
 Sector LeftStopSector(const DoorPlan& door) {
   if (door.rebate_depth_m <= 0) return kApproachSide;
@@ -98,6 +110,7 @@ Landmark MakeDoorLandmark(const DoorPlan& door) {
   AddLintelEdge(edges, door.FrontX(), outer, outer_top);
   AddLintelEdge(edges, door.FrontX(), half, top);
   AddLintelEdge(edges, door.StopX(), half, top);
+  AddGreys(door, edges);
   AddLeaf(door, edges);
   return landmark;
 }
@@ -115,6 +128,7 @@ Landmark MakeDoorLandmarkFromBehind(const DoorPlan& door) {
   AddLintelEdge(edges, near, outer, outer_top);
   AddLintelEdge(edges, stop, half, top);
   AddLintelEdge(edges, far, half, top);
+  AddGreys(door, edges);
   return landmark;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "common/geometry.hpp"
@@ -18,6 +19,9 @@ struct LandmarkEdge {
   /// counter-clockwise from `visible_from_rad` to `visible_to_rad`, each in (-pi, pi].
   double visible_from_rad = 0, visible_to_rad = 0;
   Side side = Side::kBoth;
+  /// Logarithm of the brightness right of the edge over that left of it, as the viewer sees it from `from` to
+  /// `to`; nullopt: not known.
+  std::optional<double> grey_ratio{};
 };
 
 /// A landmark of the internal map: an edge skeleton with attributes (paper, section 6.1).

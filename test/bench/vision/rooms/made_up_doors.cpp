@@ -41,24 +41,26 @@ LookStage MakeStage(const std::string& kind, std::uint64_t seed, RoomTrouble tro
   stage.landmark.map_from_landmark = door.map_from_door();
   if (trouble == RoomTrouble::kDoorAbsent) RemoveDoor(door, stage);
   if (trouble == RoomTrouble::kAnotherDoor) OtherDoor(door, surveyed, stage, rng);
+  if (trouble == RoomTrouble::kOtherLight) stage.light.window_yaw_deg += 120, stage.light.brightness *= 0.6;
   return stage;
 }
 
 }  // namespace
 
 const char* Describe(RoomTrouble trouble) {
-  constexpr const char* kWords[] = {"nothing", "door absent", "another door"};
+  constexpr const char* kWords[] = {"nothing", "door absent", "another door", "other light"};
   return kWords[static_cast<int>(trouble)];
 }
 
 RoomPhotographer::RoomPhotographer() : graphics_(world::Renderer::HoldGraphics()) {}
 
 RoomLook RoomPhotographer::Take(const std::string& kind, std::uint64_t seed, RoomTrouble trouble,
-                                const CalibratedHead& head) {
-  const LookStage stage = MakeStage(kind, seed, trouble);
-  const int side = static_cast<int>(seed % 3);
+                                const CalibratedHead& head, int visit) {
+  LookStage stage = MakeStage(kind, seed, trouble);
+  stage.visit = visit;
+  const int side = static_cast<int>((seed + visit) % 3);
   RoomLook room{TakeLook(stage, head, {0, 0}, side, seed), stage.plan.wall_material, stage.light.floor};
-  room.look.is_there = trouble == RoomTrouble::kNone;
+  room.look.is_there = trouble == RoomTrouble::kNone || trouble == RoomTrouble::kOtherLight;
   return room;
 }
 

@@ -9,8 +9,8 @@
 namespace priamos::bench {
 
 /// What is wrong with a made-up building: nothing; the wall goes on where the door should be; or the door
-/// there is broader or narrower than the plan says by 6 to 15 cm.
-enum class RoomTrouble { kNone, kDoorAbsent, kAnotherDoor };
+/// there is broader or narrower than the plan says by 6 to 15 cm; or the light comes from elsewhere.
+enum class RoomTrouble { kNone, kDoorAbsent, kAnotherDoor, kOtherLight };
 const char* Describe(RoomTrouble trouble);
 
 /// A look at the door to pass of a building that was made up from the look's seed.
@@ -25,8 +25,9 @@ struct RoomLook {
 class RoomPhotographer {
  public:
   RoomPhotographer();
-  /// `kind` as in world::GeneratedKinds: "room" or "floor".
-  RoomLook Take(const std::string& kind, std::uint64_t seed, RoomTrouble trouble, const CalibratedHead& head);
+  /// `kind` as in world::GeneratedKinds: "room" or "floor"; `visit` as in LookStage.
+  RoomLook Take(const std::string& kind, std::uint64_t seed, RoomTrouble trouble, const CalibratedHead& head,
+                int visit = 0);
 
  private:
   std::shared_ptr<void> graphics_;

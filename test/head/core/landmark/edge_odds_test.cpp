@@ -45,6 +45,15 @@ TEST(GreyOdds, AreLeastWhereSomethingElseIsBesideTheEdge) {
   EXPECT_NEAR(GreyOdds(edge, -2, options), std::log(0.1), 1e-6);
 }
 
+TEST(GreyOdds, AreSharperWhereTheEdgeIsSurer) {
+  LandmarkEdge edge;
+  edge.grey_ratio = 0.5;
+  const double usual = GreyOdds(edge, 0.5, {}), usual_beside = GreyOdds(edge, 1.2, {});
+  edge.grey_sigma = 0.15;
+  EXPECT_GT(GreyOdds(edge, 0.5, {}), usual);
+  EXPECT_LT(GreyOdds(edge, 1.2, {}), usual_beside);
+}
+
 TEST(CornerOdds, WeighBothOutcomesByTheirChances) {
   const Odds odds = CornerOdds({.corner_detection = 0.4, .corner_chance = 0.06});
   EXPECT_NEAR(odds.found, std::log(0.4 / 0.06), 1e-9);

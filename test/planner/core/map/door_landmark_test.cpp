@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace priamos::planner {
 namespace {
@@ -40,6 +41,25 @@ TEST(DoorLandmark, LeftAndRightAreMirrored) {
       const double c = std::cos(Radians(azimuth_deg)), s = std::sin(Radians(azimuth_deg));
       EXPECT_EQ(IsVisible(dut.edges[i], {c, s}), IsVisible(dut.edges[i + 1], {c, -s})) << azimuth_deg;
     }
+  }
+}
+
+TEST(DoorLandmark, WithoutANoteOfGreysNoEdgeTellsAny) {
+  for (const LandmarkEdge& edge : MakeDoorLandmark(DoorPlan{}).edges) EXPECT_FALSE(edge.grey_ratio);
+}
+
+TEST(DoorLandmark, BesideTheOuterEdgesOfTheFrameTheBrighterOneIsOnItsSide) {
+  DoorPlan door;
+  door.frame_over_wall = 2;
+  door.behind_id = 9;
+  for (const Landmark& dut : {MakeDoorLandmark(door), MakeDoorLandmarkFromBehind(door)}) {
+    EXPECT_NEAR(dut.edges[0].grey_ratio.value(), std::log(2), 1e-12) << "right of the left one, upwards";
+    EXPECT_NEAR(dut.edges[1].grey_ratio.value(), -std::log(2), 1e-12);
+    const LandmarkEdge& lintel = dut.edges[6];
+    EXPECT_GT(lintel.from.z(), door.opening_height_m) << "the outer one";
+    EXPECT_GT(lintel.to.y(), lintel.from.y()) << "to the left, the wall on its right, above";
+    EXPECT_NEAR(lintel.grey_ratio.value(), -std::log(2), 1e-12);
+    for (const std::size_t i : {2, 3, 4, 5, 7, 8}) EXPECT_FALSE(dut.edges[i].grey_ratio) << i;
   }
 }
 

@@ -108,6 +108,21 @@ TEST(CupboardLandmark, ThreeDoorsHaveTwoGapsAtTheirPlaces) {
   EXPECT_EQ(gaps, 4);
 }
 
+TEST(CupboardLandmark, OnlyItsPlinthTellsGreysWhereTheMapDoes) {
+  CupboardPlan plan;
+  for (const LandmarkEdge& e : MakeCupboardLandmark(plan).edges) EXPECT_FALSE(e.grey_ratio);
+  plan.plinth_over_front = 0.5;
+  int told = 0;
+  for (const LandmarkEdge& e : MakeCupboardLandmark(plan).edges) {
+    if (!e.grey_ratio) continue;
+    ++told;
+    EXPECT_EQ(e.from.z(), plan.plinth_m);
+    EXPECT_GT(e.to.y(), e.from.y()) << "to the left, the doors on its right, above";
+    EXPECT_NEAR(*e.grey_ratio, std::log(2), 1e-12);
+  }
+  EXPECT_EQ(told, 1);
+}
+
 TEST(MapLandmarks, FindsDoorsAndCupboardsByNumber) {
   GroundPlan plan;
   plan.doors.emplace_back().id = 3;
