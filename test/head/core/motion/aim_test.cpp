@@ -2,26 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "test/head/core/motion/aimed_head.hpp"
+
 namespace priamos::head {
 namespace {
-
-/// 890 px: half the picture is 23 degrees.
-HeadModel Head() {
-  HeadModel head;
-  for (LensTable& lens : head.lenses)
-    lens = LensTable({250}, {1600}, {LensState{890, {383.5, 287.5}, 0, 0, 0.02}});
-  return head;
-}
-
-LandmarkModel Door() {
-  LandmarkModel model;
-  for (const double y : {0.45, 0.51}) {
-    model.edges.push_back({{0, y, 0}, {0, y, 2}, -kPi, kPi, 1});
-    model.edges.push_back({{0, -y, 0}, {0, -y, 2}, -kPi, kPi, 2});
-  }
-  model.edges.push_back({{0, -0.45, 2}, {0, 0.45, 2}, -kPi, kPi, 0});
-  return model;
-}
 
 LandmarkPrediction At(double x, double y, double sigma_m = 0.005, double sigma_rad = 0.003) {
   return {{x, y, 0},
@@ -41,20 +25,21 @@ bool IsInBothPictures(const HeadModel& head, double pan, const Eigen::Vector3d& 
 }
 
 TEST(Aim, LooksBetweenTheMiddleAndTheSide) {
-  const double left = AimPan(Head(), kLooks, Door(), At(3, 0), 1, {});
+  const double left = AimPan(HeadOfOneLens(), kLooks, DoorOfFiveEdges(), At(3, 0), 1, {});
   EXPECT_NEAR(left, 0.5 * std::atan2(0.48, 2.75), 0.01);
-  EXPECT_NEAR(AimPan(Head(), kLooks, Door(), At(3, 0), 2, {}), -left, 0.006);
-  EXPECT_NEAR(AimPan(Head(), kLooks, Door(), At(3, 0), 0, {}), 0, 0.006);
+  EXPECT_NEAR(AimPan(HeadOfOneLens(), kLooks, DoorOfFiveEdges(), At(3, 0), 2, {}), -left, 0.006);
+  EXPECT_NEAR(AimPan(HeadOfOneLens(), kLooks, DoorOfFiveEdges(), At(3, 0), 0, {}), 0, 0.006);
 }
 
 TEST(Aim, FollowsTheLandmark) {
-  EXPECT_NEAR(AimPan(Head(), kLooks, Door(), At(3, 1.2), 0, {}), std::atan2(1.2, 2.75), 0.01);
+  EXPECT_NEAR(AimPan(HeadOfOneLens(), kLooks, DoorOfFiveEdges(), At(3, 1.2), 0, {}), std::atan2(1.2, 2.75),
+              0.01);
 }
 
 TEST(Aim, KeepsTheOtherSideInThePictureIfItCan) {
   // Half way to the side the other jamb might be outside.
-  const double unsure = AimPan(Head(), kLooks, Door(), At(3, 0, 0.15, 0.045), 1, {});
-  EXPECT_LT(unsure, AimPan(Head(), kLooks, Door(), At(3, 0), 1, {}) - 0.01);
+  const double unsure = AimPan(HeadOfOneLens(), kLooks, DoorOfFiveEdges(), At(3, 0, 0.15, 0.045), 1, {});
+  EXPECT_LT(unsure, AimPan(HeadOfOneLens(), kLooks, DoorOfFiveEdges(), At(3, 0), 1, {}) - 0.01);
 }
 
 TEST(Aim, HowADoorThatFacesTheHeadIsTurnedDoesNotMatter) {
@@ -63,37 +48,40 @@ TEST(Aim, HowADoorThatFacesTheHeadIsTurnedDoesNotMatter) {
   LandmarkPrediction turned = known;
   turned.covariance(2, 2) = 0.5 * 0.5;
   for (const int side : {1, 2})
-    EXPECT_NEAR(AimPan(Head(), kLooks, Door(), turned, side, {}),
-                AimPan(Head(), kLooks, Door(), known, side, {}), 0.006);
+    EXPECT_NEAR(AimPan(HeadOfOneLens(), kLooks, DoorOfFiveEdges(), turned, side, {}),
+                AimPan(HeadOfOneLens(), kLooks, DoorOfFiveEdges(), known, side, {}), 0.006);
 }
 
 TEST(Aim, NearTheDoorTheSideAskedForIsInThePicture) {
   for (const double x : {1.2, 1.5, 2.0}) {
     for (const int side : {1, 2}) {
-      const double pan = AimPan(Head(), kLooks, Door(), At(x, 0.2, 0.01, 0.005), side, {});
+      const double pan =
+          AimPan(HeadOfOneLens(), kLooks, DoorOfFiveEdges(), At(x, 0.2, 0.01, 0.005), side, {});
       const double y = 0.2 + (side == 1 ? 0.48 : -0.48);
-      EXPECT_TRUE(IsInBothPictures(Head(), pan, {x, y, 1.2})) << "from " << x << " m, side " << side;
+      EXPECT_TRUE(IsInBothPictures(HeadOfOneLens(), pan, {x, y, 1.2})) << "from " << x << " m, side " << side;
     }
   }
 }
 
 TEST(Aim, ALandmarkBehindIsNotChased) {
   AimConfig config;
-  EXPECT_LE(std::abs(AimPan(Head(), kLooks, Door(), At(-3, 0.5), 1, config)), Radians(config.max_pan_deg));
+  EXPECT_LE(std::abs(AimPan(HeadOfOneLens(), kLooks, DoorOfFiveEdges(), At(-3, 0.5), 1, config)),
+            Radians(config.max_pan_deg));
 }
 
 TEST(Aim, StraightAheadWithoutEdges) {
-  EXPECT_EQ(AimPan(Head(), kLooks, LandmarkModel{}, At(3, 0), 1, {}), 0);
+  EXPECT_EQ(AimPan(HeadOfOneLens(), kLooks, LandmarkModel{}, At(3, 0), 1, {}), 0);
 }
 
 TEST(Aim, ARobotThatDrivesOnLooksFromWhereItWillBe) {
-  LandmarkModel door = Door();
+  LandmarkModel door = DoorOfFiveEdges();
   door.map_from_landmark = {3, 0, 0};
   const AimConfig config{.lead_s = 0.5};
   PoseSample robot;
   robot.twist = {0, -0.8, 0};
-  const double dut = AimPan(Head(), kLooks, door, robot, 0, config);
-  EXPECT_EQ(dut, AimPan(Head(), kLooks, door, LandmarkPrediction{{3, 0.4, 0}, robot.covariance}, 0, config));
+  const double dut = AimPan(HeadOfOneLens(), kLooks, door, robot, 0, config);
+  EXPECT_EQ(dut, AimPan(HeadOfOneLens(), kLooks, door, LandmarkPrediction{{3, 0.4, 0}, robot.covariance}, 0,
+                        config));
   EXPECT_GT(dut, 0.1);
 }
 

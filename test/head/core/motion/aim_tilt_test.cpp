@@ -2,16 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "test/head/core/motion/aimed_head.hpp"
+
 namespace priamos::head {
 namespace {
-
-/// 890 px: half the picture is 18 degrees high.
-HeadModel Head() {
-  HeadModel head;
-  for (LensTable& lens : head.lenses)
-    lens = LensTable({250}, {1600}, {LensState{890, {383.5, 287.5}, 0, 0, 0.02}});
-  return head;
-}
 
 LandmarkModel Opening(double height_m) {
   LandmarkModel model;
@@ -27,17 +21,17 @@ const HeadSetting kLooks{0, Radians(-5), {-0.02, 0.02}, {250, 250}, {1600, 1600}
 double RowOfTop(double tilt_rad, double distance_m, double height_m) {
   HeadSetting setting = kLooks;
   setting.tilt_rad = tilt_rad;
-  return Head().CameraAt(setting, kLeft)->Project({distance_m, 0, height_m}).y();
+  return HeadOfOneLens().CameraAt(setting, kLeft)->Project({distance_m, 0, height_m}).y();
 }
 
 TEST(AimTilt, FromAfarTheTiltStaysAsItIs) {
-  EXPECT_EQ(AimTilt(Head(), kLooks, Opening(2), {3.4, 0, 0}, {}), kLooks.tilt_rad);
+  EXPECT_EQ(AimTilt(HeadOfOneLens(), kLooks, Opening(2), {3.4, 0, 0}, {}), kLooks.tilt_rad);
 }
 
 TEST(AimTilt, FromNearItLooksJustAsFarUpAsTheLintelNeeds) {
   double last = kLooks.tilt_rad;
   for (const double distance_m : {2.2, 1.9, 1.7}) {
-    const double tilt = AimTilt(Head(), kLooks, Opening(2), {distance_m, 0, 0}, {});
+    const double tilt = AimTilt(HeadOfOneLens(), kLooks, Opening(2), {distance_m, 0, 0}, {});
     EXPECT_LT(tilt, last) << distance_m;
     EXPECT_GE(RowOfTop(tilt, distance_m, 2), 30) << distance_m;
     EXPECT_LT(RowOfTop(tilt, distance_m, 2), 45) << distance_m;
@@ -46,22 +40,22 @@ TEST(AimTilt, FromNearItLooksJustAsFarUpAsTheLintelNeeds) {
 }
 
 TEST(AimTilt, ALintelThatIsOutOfReachChangesNothing) {
-  EXPECT_EQ(AimTilt(Head(), kLooks, Opening(2), {0.7, 0, 0}, {}), kLooks.tilt_rad);
-  EXPECT_EQ(AimTilt(Head(), kLooks, Opening(2), {1.7, 0, 0}, {.most_deg = 5}), kLooks.tilt_rad);
+  EXPECT_EQ(AimTilt(HeadOfOneLens(), kLooks, Opening(2), {0.7, 0, 0}, {}), kLooks.tilt_rad);
+  EXPECT_EQ(AimTilt(HeadOfOneLens(), kLooks, Opening(2), {1.7, 0, 0}, {.most_deg = 5}), kLooks.tilt_rad);
 }
 
 TEST(AimTilt, WithoutLevelEdgesOrBehindTheBaseItChangesNothing) {
   LandmarkModel jambs = Opening(2);
   jambs.edges.resize(2);
-  EXPECT_EQ(AimTilt(Head(), kLooks, jambs, {1.7, 0, 0}, {}), kLooks.tilt_rad);
-  EXPECT_EQ(AimTilt(Head(), kLooks, LandmarkModel{}, {1.7, 0, 0}, {}), kLooks.tilt_rad);
+  EXPECT_EQ(AimTilt(HeadOfOneLens(), kLooks, jambs, {1.7, 0, 0}, {}), kLooks.tilt_rad);
+  EXPECT_EQ(AimTilt(HeadOfOneLens(), kLooks, LandmarkModel{}, {1.7, 0, 0}, {}), kLooks.tilt_rad);
 }
 
 TEST(AimTilt, WhatIsSeenFromTheOtherSideOnlyDoesNotCount) {
   LandmarkModel without = Opening(2);
   without.edges.pop_back();
-  EXPECT_EQ(AimTilt(Head(), kLooks, Opening(2), {1.8, 0, 0}, {}),
-            AimTilt(Head(), kLooks, without, {1.8, 0, 0}, {}));
+  EXPECT_EQ(AimTilt(HeadOfOneLens(), kLooks, Opening(2), {1.8, 0, 0}, {}),
+            AimTilt(HeadOfOneLens(), kLooks, without, {1.8, 0, 0}, {}));
 }
 
 }  // namespace

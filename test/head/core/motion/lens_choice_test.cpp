@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "test/head/core/motion/aimed_head.hpp"
+
 namespace priamos::head {
 namespace {
 
@@ -23,12 +25,7 @@ HeadModel Head() {
 }
 
 LandmarkModel Door() {
-  LandmarkModel model;
-  for (const double y : {0.45, 0.51}) {
-    model.edges.push_back({{0, y, 0}, {0, y, 2}, -kPi, kPi, 1});
-    model.edges.push_back({{0, -y, 0}, {0, -y, 2}, -kPi, kPi, 2});
-  }
-  model.edges.push_back({{0, -0.45, 2}, {0, 0.45, 2}, -kPi, kPi, 0});
+  LandmarkModel model = DoorOfFiveEdges();
   model.edges.push_back({{0.1, 0.4, 1}, {0.9, 0.4, 1}, -kPi, kPi, 3});
   return model;
 }
