@@ -107,16 +107,16 @@ HeadSetting HeadApp::SettingFor(const LookOrder& order, Time now) const {
   const auto model = models_.find(order.landmark_id);
   const auto robot = poses_.At(now);
   if (model == models_.end() || !robot) return setting;
-  const Pose2 there = Integrate(robot->map_from_base, robot->twist, config_.aim.lead_s);
-  setting.tilt_rad = AimTilt(head_, setting, model->second, there.Inverse() * model->second.map_from_landmark,
-                             config_.look_up);
+  const LandmarkPrediction expected =
+      PredictAhead(*robot, model->second.map_from_landmark, config_.aim.lead_s);
+  setting.tilt_rad = AimTilt(head_, setting, model->second, expected.base_from_landmark, config_.look_up);
   if (config_.lens.choose && report_) {
     // Counters may rest a step beside the goal.
     const HeadSetting& here = positioner_.settled() ? positioner_.goal() : report_->setting;
     return ChooseLens(head_, setting, here, {model->second, *robot, order.side}, config_.aim, config_.lens,
                       config_.motors.approach_steps);
   }
-  setting.pan_rad = AimPan(head_, setting, model->second, *robot, order.side, config_.aim);
+  setting.pan_rad = AimPan(head_, setting, model->second, expected, order.side, config_.aim);
   return setting;
 }
 

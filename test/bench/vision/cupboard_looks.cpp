@@ -91,8 +91,7 @@ LookStage MakeStage(std::uint64_t seed, CupboardTrouble trouble) {
   if (trouble == CupboardTrouble::kAnother) Replace(cupboard, trouble_rng);
   if (trouble != CupboardTrouble::kAbsent) stage.plan.boxes.push_back(BoxOf(cupboard, "cupboard"));
   if (trouble == CupboardTrouble::kHalfHidden) stage.plan.boxes.push_back(InTheWay(cupboard, trouble_rng));
-  if (trouble == CupboardTrouble::kOtherLight)
-    stage.light.window_yaw_deg += 120, stage.light.brightness *= 0.6;
+  if (trouble == CupboardTrouble::kOtherLight) stage.ChangeLight();
   if (trouble == CupboardTrouble::kLightsOut)
     stage.light.brightness *= std::exp(trouble_rng.Uniform(std::log(0.01), std::log(0.2)));
   return stage;

@@ -60,7 +60,7 @@ LookStage MakeStage(std::uint64_t seed, Trouble trouble) {
   if (trouble == Trouble::kHalfHidden) HideHalf(stage, rng);
   if (trouble == Trouble::kLeafMoved) stage.plan.doors[0].open_deg = rng.Uniform(0, 90);
   if (trouble == Trouble::kLeafMoved) stage.plan.doors[0].open_spread_deg = 0;
-  if (trouble == Trouble::kOtherLight) stage.light.window_yaw_deg += 120, stage.light.brightness *= 0.6;
+  if (trouble == Trouble::kOtherLight) stage.ChangeLight();
   if (trouble == Trouble::kLightsOut)
     stage.light.brightness *= std::exp(rng.Uniform(std::log(0.01), std::log(0.2)));
   return stage;

@@ -57,6 +57,9 @@ struct LookStage {
   double doubt = 1;  ///< how wrong the belief is: 1 up to 20 cm and 5 degrees
   bool choose_lens = false;        ///< zoom and focus for this look, instead of those of all looks
   bool focus_by_distance = false;  ///< world::ImagingConfig
+
+  /// Another time of the day: the windows' light comes from elsewhere, and there is less of it.
+  void ChangeLight() { light.window_yaw_deg += 120, light.brightness *= 0.6; }
 };
 
 /// Covariance of (x, y, yaw) of what is believed of the landmark: 20 cm and 5 degrees at most.

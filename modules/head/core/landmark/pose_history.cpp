@@ -39,4 +39,9 @@ LandmarkPrediction Predict(const PoseSample& robot, const Pose2& map_from_landma
   return prediction;
 }
 
+LandmarkPrediction PredictAhead(PoseSample robot, const Pose2& map_from_landmark, double ahead_s) {
+  robot.map_from_base = Integrate(robot.map_from_base, robot.twist, ahead_s);
+  return Predict(robot, map_from_landmark);
+}
+
 }  // namespace priamos::head

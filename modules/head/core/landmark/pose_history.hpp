@@ -41,4 +41,7 @@ class PoseHistory {
 /// the base frame.
 LandmarkPrediction Predict(const PoseSample& robot, const Pose2& map_from_landmark);
 
+/// The same `ahead_s` later, for a robot that drives on as it does.
+LandmarkPrediction PredictAhead(PoseSample robot, const Pose2& map_from_landmark, double ahead_s);
+
 }  // namespace priamos::head

@@ -144,10 +144,4 @@ double AimPan(const HeadModel& head, const HeadSetting& base, const LandmarkMode
   return best;
 }
 
-double AimPan(const HeadModel& head, const HeadSetting& base, const LandmarkModel& model, PoseSample robot,
-              int side, const AimConfig& config) {
-  robot.map_from_base = Integrate(robot.map_from_base, robot.twist, config.lead_s);
-  return AimPan(head, base, model, Predict(robot, model.map_from_landmark), side, config);
-}
-
 }  // namespace priamos::head

@@ -35,8 +35,4 @@ double AimPan(const HeadModel& head, const HeadSetting& base, const LandmarkMode
 double OutsideBy(const HeadGeometry& head, const std::array<CameraModel, 2>& cameras,
                  const LandmarkEdge& edge, const LandmarkPrediction& prediction, const AimConfig& config);
 
-/// The same for a robot that was at `robot` and drives on for the lead time.
-double AimPan(const HeadModel& head, const HeadSetting& base, const LandmarkModel& model, PoseSample robot,
-              int side, const AimConfig& config);
-
 }  // namespace priamos::head

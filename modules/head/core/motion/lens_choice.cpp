@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace priamos::head {
 namespace {
@@ -78,10 +79,11 @@ class Chooser {
 
   HeadSetting Best() const {
     Choice best = Judge(fixed_);
-    std::vector<HeadSetting> settings = Settings();
-    std::ranges::sort(settings, std::greater(), [this](const HeadSetting& s) { return MostScore(s); });
-    for (const HeadSetting& setting : settings) {
-      if (best.lost == 0 && MostScore(setting) <= best.score) break;
+    std::vector<std::pair<double, HeadSetting>> settings;  // with the most that each can be worth
+    for (const HeadSetting& setting : Settings()) settings.emplace_back(MostScore(setting), setting);
+    std::ranges::sort(settings, std::greater(), [](const auto& s) { return s.first; });
+    for (const auto& [most, setting] : settings) {
+      if (best.lost == 0 && most <= best.score) break;
       const Choice choice = Judge(setting);
       // Through a longer lens a landmark that may be elsewhere would be missed, and of a part little is seen.
       const bool longer = setting.zoom_step[0] > fixed_.zoom_step[0];
@@ -138,9 +140,7 @@ class Chooser {
   }
 
   LandmarkPrediction Expected(double extra_s) const {
-    PoseSample robot = wish_.robot;
-    robot.map_from_base = Integrate(robot.map_from_base, robot.twist, aim_.lead_s + extra_s);
-    return Predict(robot, wish_.model.map_from_landmark);
+    return PredictAhead(wish_.robot, wish_.model.map_from_landmark, aim_.lead_s + extra_s);
   }
 
   HeadSetting Aimed(HeadSetting setting, double extra_s) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "planner/core/map/box_skeleton.hpp"
 #include "planner/core/map/door_sides.hpp"
@@ -33,27 +34,29 @@ Sector LeftJambSector(const DoorPlan& door) {
   return {WrapAngle(kPi - behind_face), WrapAngle(kPi + past_right_jamb - kGrazing_rad)};
 }
 
-/// Adds an upright edge at y and its mirror image at -y [m]; the sector is mirrored with it.
-void AddJambEdge(std::vector<LandmarkEdge>& edges, double x, double y, double height, const Sector& sector) {
-  edges.push_back({{x, y, 0}, {x, y, height}, sector.from_rad, sector.to_rad, Side::kLeft});
-  edges.push_back({{x, -y, 0}, {x, -y, height}, -sector.to_rad, -sector.from_rad, Side::kRight});
+/// Adds an upright edge at y and its mirror image at -y [m]; the sector is mirrored with it. `grey_ratio`: of
+/// what is nearer to the opening over what is farther from it, which is right of the left edge.
+void AddJambEdge(std::vector<LandmarkEdge>& edges, double x, double y, double height, const Sector& sector,
+                 std::optional<double> grey_ratio = {}) {
+  const auto mirrored = grey_ratio ? std::optional(-*grey_ratio) : std::nullopt;
+  edges.push_back({{x, y, 0}, {x, y, height}, sector.from_rad, sector.to_rad, Side::kLeft, grey_ratio});
+  edges.push_back({{x, -y, 0}, {x, -y, height}, -sector.to_rad, -sector.from_rad, Side::kRight, mirrored});
 }
 
-void AddLintelEdge(std::vector<LandmarkEdge>& edges, double x, double half_width, double z) {
-  edges.push_back(
-      {{x, -half_width, z}, {x, half_width, z}, kApproachSide.from_rad, kApproachSide.to_rad, Side::kBoth});
+/// It runs to the left: what is nearer to the opening is left of it.
+void AddLintelEdge(std::vector<LandmarkEdge>& edges, double x, double half_width, double z,
+                   std::optional<double> grey_ratio = {}) {
+  edges.push_back({{x, -half_width, z},
+                   {x, half_width, z},
+                   kApproachSide.from_rad,
+                   kApproachSide.to_rad,
+                   Side::kBoth,
+                   grey_ratio ? std::optional(-*grey_ratio) : std::nullopt});
 }
 
-/// Tells which of the first edges are those between frame and wall, and how bright both are. The frame is
-/// right of the left one, left of the right one (both run up), and below that of the lintel, which runs to
-/// the left.
-void AddGreys(const DoorPlan& door, std::vector<LandmarkEdge>& edges) {
-  constexpr std::size_t kLintel = 6;  // behind three edges of either jamb
-  if (door.frame_over_wall <= 0) return;
-  const double ratio = std::log(door.frame_over_wall);
-  edges[0].grey_ratio = ratio;
-  edges[1].grey_ratio = -ratio;
-  edges[kLintel].grey_ratio = -ratio;
+/// Grey ratio of frame over wall, where the map notes it.
+std::optional<double> FrameOverWall(const DoorPlan& door) {
+  return door.frame_over_wall > 0 ? std::optional(std::log(door.frame_over_wall)) : std::nullopt;
 }
 
 /// Viewers who see the left stop past the arris of its own rebate.
@@ -104,13 +107,12 @@ Landmark MakeDoorLandmark(const DoorPlan& door) {
   const double top = door.opening_height_m, outer_top = top + door.frame_width_m;
   Landmark landmark{door.id, door.map_from_door(), {}};
   auto& edges = landmark.edges;
-  AddJambEdge(edges, door.FrontX(), outer, outer_top, kApproachSide);
+  AddJambEdge(edges, door.FrontX(), outer, outer_top, kApproachSide, FrameOverWall(door));
   AddJambEdge(edges, door.FrontX(), half, top, kApproachSide);
   AddJambEdge(edges, door.StopX(), half, top, LeftJambSector(door));
-  AddLintelEdge(edges, door.FrontX(), outer, outer_top);
+  AddLintelEdge(edges, door.FrontX(), outer, outer_top, FrameOverWall(door));
   AddLintelEdge(edges, door.FrontX(), half, top);
   AddLintelEdge(edges, door.StopX(), half, top);
-  AddGreys(door, edges);
   AddLeaf(door, edges);
   return landmark;
 }
@@ -122,13 +124,12 @@ Landmark MakeDoorLandmarkFromBehind(const DoorPlan& door) {
   const double near = -door.BackX(), stop = -door.StopX(), far = -door.FrontX();
   Landmark landmark{seen.id, seen.map_from_door(), {}};
   auto& edges = landmark.edges;
-  AddJambEdge(edges, near, outer, outer_top, kApproachSide);
+  AddJambEdge(edges, near, outer, outer_top, kApproachSide, FrameOverWall(door));
   AddJambEdge(edges, stop, half, top, LeftStopSector(door));
   AddJambEdge(edges, far, half, top, LeftJambSector(door));
-  AddLintelEdge(edges, near, outer, outer_top);
+  AddLintelEdge(edges, near, outer, outer_top, FrameOverWall(door));
   AddLintelEdge(edges, stop, half, top);
   AddLintelEdge(edges, far, half, top);
-  AddGreys(door, edges);
   return landmark;
 }
 

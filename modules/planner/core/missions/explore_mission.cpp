@@ -71,8 +71,7 @@ std::optional<Refusal> ExploreMission::Start(const MissionOrder& /*order*/) {
   trail_.clear();
   outcome_.reset();
   placing_ = Placing::kNo;
-  stands_.Reset();
-  idles_.Reset();
+  progress_.Reset();
   goal_.reset();
   tried_.reset();
   considered_.reset();
@@ -102,14 +101,9 @@ void ExploreMission::Step(MissionControl& control) {
   const bool is_new = heard.pose->stamp > *control.path_sent();
   if (!is_new || !control.OnPath()) return;
   if (heard.drive->mode == DriveMode::kArrived) return Arrive(control);
-  if (stands_.Stands_s(control) > config_.stands_s)
-    return control.Fail(
-        fmt::format("the robot has held on its way for {:.0f} s: {}; next: see where it is, priamos place",
-                    config_.stands_s, heard.drive->limit));
-  if (idles_.Stands_s(control) > config_.idle_s) {
-    idles_.Reset();
-    return OnStop(control, {Stop::Cause::kBlocked, "the robot came no further"});
-  }
+  if (const auto stop = progress_.Step(control, config_.stands_s, config_.idle_s))
+    return OnStop(control, *stop);
+  if (!control.running()) return;
   if (!goal_) return;
   NoteAhead(control);
   Reconsider(control);
@@ -285,7 +279,7 @@ bool ExploreMission::GoBack(MissionControl& control, double length_m) {
   if (way.points.empty()) return false;
   goal_.reset();
   backing_ = true;
-  idles_.Reset();
+  progress_.ResetIdle();
   Order(control, std::move(way));
   control.Enter(Phase::kDriving, "exploring: something is near, going back a bit");
   return true;

@@ -64,7 +64,7 @@ class ExploreMission : public Mission {
   FloorGraph graph_;
   std::vector<GraphAnchor> trail_;  ///< of the places of the exploration's trail
   Pose2 ordered_by_;                ///< the robot's frame in the map when a path was ordered last
-  StandWatch stands_, idles_{StandWatch::Counts::kFree};
+  ProgressWatch progress_;
   bool begun_ = false;  ///< there was an order
   std::optional<FrontierGoal> goal_;
   std::optional<Eigen::Vector2d> tried_;       ///< the border to which it drove last

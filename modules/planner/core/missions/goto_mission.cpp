@@ -40,8 +40,7 @@ std::optional<Refusal> GotoMission::Start(const MissionOrder& order) {
   goal_ = order.goal;
   departures_ = waits_ = 0;
   waits_since_.reset();
-  stands_.Reset();
-  idles_.Reset();
+  progress_.Reset();
   planner_.Forget();
   keeper_.Reset();
   learned_.reset();
@@ -62,14 +61,9 @@ void GotoMission::Step(MissionControl& control) {
   const bool is_new = heard.pose->stamp > *control.path_sent();
   if (!is_new || !control.OnPath()) return;
   if (heard.drive->mode == DriveMode::kArrived) return Arrive(control);
-  if (stands_.Stands_s(control) > config_.stands_s)
-    return control.Fail(
-        fmt::format("the robot has held on its way for {:.0f} s: {}; next: see where it is, priamos place",
-                    config_.stands_s, heard.drive->limit));
-  if (idles_.Stands_s(control) > config_.idle_s) {
-    idles_.Reset();
-    return OnStop(control, {Stop::Cause::kBlocked, "the robot came no further"});
-  }
+  if (const auto stop = progress_.Step(control, config_.stands_s, config_.idle_s))
+    return OnStop(control, *stop);
+  if (!control.running()) return;
   Reconsider(control);
 }
 

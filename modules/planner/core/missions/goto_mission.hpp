@@ -67,7 +67,7 @@ class GotoMission : public Mission {
   std::shared_ptr<const LearnedWalls> learned_;  ///< as they were taken into account
   int waits_ = 0;                                ///< since the order
   std::optional<Time> waits_since_;              ///< for the way to become free
-  StandWatch stands_, idles_{StandWatch::Counts::kFree};
+  ProgressWatch progress_;
   bool whole_ = true;  ///< the path ordered last leads to the goal
 };
 

@@ -1,5 +1,7 @@
 #include "planner/core/missions/path_progress.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -76,6 +78,18 @@ double StandWatch::Stands_s(const MissionControl& control) {
     stood_s_ += step_s;
   }
   return stood_s_;
+}
+
+std::optional<Stop> ProgressWatch::Step(MissionControl& control, double held_s, double idle_s) {
+  if (holds_.Stands_s(control) > held_s) {
+    control.Fail(
+        fmt::format("the robot has held on its way for {:.0f} s: {}; next: see where it is, priamos place",
+                    held_s, control.heard().drive->limit));
+    return std::nullopt;
+  }
+  if (idles_.Stands_s(control) <= idle_s) return std::nullopt;
+  idles_.Reset();
+  return Stop{Stop::Cause::kBlocked, "the robot came no further"};
 }
 
 }  // namespace priamos::planner

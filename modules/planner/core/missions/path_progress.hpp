@@ -42,4 +42,18 @@ class StandWatch {
   std::optional<Time> stepped_;
 };
 
+/// A robot that comes no further on its path: held by something that may end by itself, or by nothing.
+class ProgressWatch {
+ public:
+  void Reset() { *this = {}; }
+  /// Forgets for how long nothing has held it.
+  void ResetIdle() { idles_.Reset(); }
+  /// One time step of a robot on its path. One that has been held for `held_s` has the mission fail; one that
+  /// has come no further for `idle_s` though nothing holds it is blocked, which is returned.
+  std::optional<Stop> Step(MissionControl& control, double held_s, double idle_s);
+
+ private:
+  StandWatch holds_, idles_{StandWatch::Counts::kFree};
+};
+
 }  // namespace priamos::planner

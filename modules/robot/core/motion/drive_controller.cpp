@@ -176,7 +176,7 @@ const CollisionStop& DriveController::Guard() const {
 /// Whether nobody has planned this motion to the centimetre though things may be near, and the walls that are
 /// heard do not lead it.
 bool DriveController::IsRough() const {
-  return state_.mode == DriveMode::kOperated || (follower_.MayLeaveLineALittle() && !InCorridor());
+  return state_.mode == DriveMode::kOperated || (follower_.LeewayHere().little() && !InCorridor());
 }
 
 bool DriveController::HasPathToGo() const {
@@ -264,7 +264,7 @@ Twist2 DriveController::WantedByPath(const DriveSituation& situation, const Obst
 /// An operator goes to and fro beside things, and in a doorway jambs come near: one of them might be taken
 /// for somebody who comes.
 bool DriveController::HeedsMovers() const {
-  return InCorridor() || (state_.mode != DriveMode::kOperated && follower_.MayLeaveLine());
+  return InCorridor() || (state_.mode != DriveMode::kOperated && follower_.LeewayHere().any());
 }
 
 bool DriveController::InCorridor() const {

@@ -63,10 +63,8 @@ class PathFollower {
   /// Drops the path; Step then returns a velocity of 0.
   void Drop();
   bool has_path() const { return shape_.has_value(); }
-  /// Whether the line that is being driven may be left.
-  bool MayLeaveLine() const { return shape_ && shape_->LeewayAt(s_).any(); }
-  /// Whether the line that is being driven may be left by a little: Leeway::little.
-  bool MayLeaveLineALittle() const { return shape_ && shape_->LeewayAt(s_).little(); }
+  /// How far the line that is being driven may be left; not at all without a path.
+  Leeway LeewayHere() const { return shape_ ? shape_->LeewayAt(s_) : Leeway{}; }
   /// Distance left from beside `pose` to the end of the path, which is being driven.
   double RemainingFrom(const Pose2& pose) const {
     return shape_->RemainingDistance(shape_->Project(pose, s_));

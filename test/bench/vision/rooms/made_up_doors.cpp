@@ -41,7 +41,7 @@ LookStage MakeStage(const std::string& kind, std::uint64_t seed, RoomTrouble tro
   stage.landmark.map_from_landmark = door.map_from_door();
   if (trouble == RoomTrouble::kDoorAbsent) RemoveDoor(door, stage);
   if (trouble == RoomTrouble::kAnotherDoor) OtherDoor(door, surveyed, stage, rng);
-  if (trouble == RoomTrouble::kOtherLight) stage.light.window_yaw_deg += 120, stage.light.brightness *= 0.6;
+  if (trouble == RoomTrouble::kOtherLight) stage.ChangeLight();
   return stage;
 }
 

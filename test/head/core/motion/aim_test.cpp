@@ -79,7 +79,8 @@ TEST(Aim, ARobotThatDrivesOnLooksFromWhereItWillBe) {
   const AimConfig config{.lead_s = 0.5};
   PoseSample robot;
   robot.twist = {0, -0.8, 0};
-  const double dut = AimPan(HeadOfOneLens(), kLooks, door, robot, 0, config);
+  const double dut = AimPan(HeadOfOneLens(), kLooks, door,
+                            PredictAhead(robot, door.map_from_landmark, config.lead_s), 0, config);
   EXPECT_EQ(dut, AimPan(HeadOfOneLens(), kLooks, door, LandmarkPrediction{{3, 0.4, 0}, robot.covariance}, 0,
                         config));
   EXPECT_GT(dut, 0.1);
