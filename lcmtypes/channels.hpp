@@ -48,6 +48,7 @@
 #include "priamos/process_order_t.hpp"
 #include "priamos/process_report_t.hpp"
 #include "priamos/process_state_t.hpp"
+#include "priamos/scene_object_t.hpp"
 #include "priamos/simulation_t.hpp"
 #include "priamos/sonar_ranges_t.hpp"
 #include "priamos/wheel_command_t.hpp"
@@ -96,6 +97,7 @@ inline constexpr Channel<look_request_t> kLookRequest{"LOOK_REQUEST", 0, millise
 inline constexpr Channel<landmark_fix_t> kLandmarkFix{"LANDMARK_FIX", 0, milliseconds(0)};
 inline constexpr Channel<door_seen_t> kDoorSeen{"DOOR_SEEN", 0, milliseconds(0)};
 inline constexpr Channel<door_found_t> kDoorFound{"DOOR_FOUND", 0, milliseconds(0)};
+inline constexpr Channel<scene_object_t> kSceneObject{"SCENE_OBJECT", 0, milliseconds(0)};
 inline constexpr Channel<landmark_view_t> kLandmarkView{"LANDMARK_VIEW", 0, milliseconds(0)};
 inline constexpr Channel<obstacle_line_t> kObstacleLine{"OBSTACLE_LINE", 5, milliseconds(1000)};
 inline constexpr Channel<features_t> kFeatures{"FEATURES", 0, milliseconds(0)};
@@ -136,6 +138,6 @@ inline constexpr std::tuple kAll{
     kBumper,         kOpening,      kDoorSeen,      kPoseReset,      kProbe,         kClock,
     kWorldTouch,     kFeatures,     kFeaturesAck,   kMapCommand,     kPlanWalls,     kParameterOrder,
     kParameterValue, kProcessOrder, kProcessReport, kProcessState,   kSimulation,    kAlarmAck,
-    kFloorMap,       kHeadAim,      kDoorFound};
+    kFloorMap,       kHeadAim,      kDoorFound,     kSceneObject};
 
 }  // namespace priamos::channels
