@@ -40,7 +40,7 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
       look_(config.look, CamerasOf(config, head_),
             config.pictures.empty() ? LookSequence::Exposures::kOwn : LookSequence::Exposures::kRecorded),
       evaluator_(head_, EvaluatorOptions(config, head_)),
-      doors_(config, head_, context),
+      glances_(config, head_, context),
       drift_(config.drift),
       cameras_(context.instance() + "-camera"),
       head_state_(context.node().Subscribe(channels::kHeadState)),
@@ -134,7 +134,7 @@ void HeadApp::Tick(Time now) {
   MoveByHand(now);
   Look(now);
   WatchFloor(now);
-  doors_.Tell(now);
+  glances_.Tell(now);
   ServeVideo(now);
 }
 
@@ -144,7 +144,7 @@ void HeadApp::TakeMessages(Time now) {
     const auto sample = FromMessage(message);
     if (!sample) continue;
     poses_.Add(*sample);
-    doors_.OnPose(*sample);
+    glances_.OnPose(*sample);
   }
   for (const head_drive_t& message : wishes_.Drain()) jog_.Take(FromMessage(message), now);
   for (const head_aim_t& message : aims_.Drain()) aim_.Take(FromMessage(message), now);
@@ -169,16 +169,16 @@ void HeadApp::TakeMessages(Time now) {
 
 void HeadApp::StartNext(Time now) {
   if (look_.active() && !glancing_) return;
-  if (orders_.empty()) return GlanceAside(now);
+  if (orders_.empty()) return GlanceAround(now);
   glancing_ = false;  // an order has the head at once
   positioner_.MoveTo(SettingFor(orders_.front(), now), now);
   look_.Begin(now);
 }
 
-void HeadApp::GlanceAside(Time now) {
+void HeadApp::GlanceAround(Time now) {
   const bool by_hand = jog_.IsHeld(now);
   if (glancing_ && by_hand) EndGlance();
-  const auto setting = doors_.Next(by_hand, glancing_, now);
+  const auto setting = glances_.Next(by_hand, glancing_, now);
   if (!setting) return;
   glancing_ = true;
   positioner_.MoveTo(*setting, now);
@@ -191,10 +191,10 @@ void HeadApp::EndGlance() {
 }
 
 /// What a glance shows; of one that shows nothing, nothing is said.
-void HeadApp::FindDoors() {
+void HeadApp::UseGlance() {
   const Frames frames = look_.frames();
   if (const auto robot = poses_.At(frames[kLeft].exposure))
-    doors_.Add({Picture(frames[kLeft]), Picture(frames[kRight])}, report_->setting, *robot);
+    glances_.Add({Picture(frames[kLeft]), Picture(frames[kRight])}, report_->setting, *robot);
   EndGlance();
 }
 
@@ -230,7 +230,7 @@ void HeadApp::Look(Time now) {
       return;
     case LookSequence::Action::kUseFrames: {
       lost_ = false;
-      if (glancing_) return FindDoors();
+      if (glancing_) return UseGlance();
       LookAnswer answer = Evaluate(look_.frames());
       look_.End();
       Answer(std::move(answer));
@@ -296,6 +296,7 @@ LookAnswer HeadApp::Evaluate(const Frames& frames) {
   answer.leaf = result.leaf;
   answer.n_third = result.n_third;
   if (result.drift) Judge(*result.drift);
+  if (const auto robot = poses_.At(answer.exposure)) glances_.Add(result.objects, *robot);
   return answer;
 }
 

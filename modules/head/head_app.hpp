@@ -17,7 +17,7 @@
 #include "head/core/motion/aim.hpp"
 #include "head/core/motion/head_aim.hpp"
 #include "head/core/motion/head_jog.hpp"
-#include "head/door_search.hpp"
+#include "head/glances.hpp"
 #include "head/head_config.hpp"
 #include "head/head_messages.hpp"
 #include "head/picture_folder.hpp"
@@ -54,9 +54,9 @@ class HeadApp {
  private:
   void TakeMessages(Time now);
   void StartNext(Time now);
-  void GlanceAside(Time now);
+  void GlanceAround(Time now);
   void EndGlance();
-  void FindDoors();
+  void UseGlance();
   void MoveHead(Time now);
   void MoveByHand(Time now);
   void Look(Time now);
@@ -85,7 +85,7 @@ class HeadApp {
   FloorEvaluator floor_;
   LookSequence look_;
   LookEvaluator evaluator_;
-  DoorSearch doors_;
+  Glances glances_;
   bool glancing_ = false;  ///< the look under way is a glance, which nobody has ordered
   DriftMonitor drift_;
   PoseHistory poses_;

@@ -56,6 +56,7 @@ void HeadConfig::Describe(Archive& a) {
   a.Section("drift", drift, "alarm when the cameras are no longer where the calibration has them");
   a.Section("laser", laser, "obstacles and steps by the laser's line");
   a.Section("doors", doors, "glances aside, for doors that are not looked at by order");
+  a.Section("scene", scene, "glances ahead, for what stands on the floor");
   a.Section("video", video, "the third camera's pictures for people, over HTTP beside the bus");
   if (!pictures.empty() && !keep_pictures.empty())
     a.Refuse("keep_pictures", "no folder beside `pictures`: those are kept already");

@@ -8,6 +8,7 @@
 #include "head/core/camera/head_model.hpp"
 #include "head/core/drift/drift_monitor.hpp"
 #include "head/core/floor/laser_watch.hpp"
+#include "head/core/motion/ahead_watch.hpp"
 #include "head/core/motion/aim.hpp"
 #include "head/core/motion/aim_tilt.hpp"
 #include "head/core/motion/head_positioner.hpp"
@@ -67,6 +68,7 @@ struct HeadConfig {
   DriftConfig drift;
   LaserWatchConfig laser;
   SideWatchConfig doors;
+  AheadWatchConfig scene;
   VideoConfig video;
 
   void Describe(Archive& a);

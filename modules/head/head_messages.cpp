@@ -14,9 +14,16 @@ constexpr double kMaxGreyRatio = 3;  // logarithm
 constexpr std::size_t kMaxViewEdges = 28;
 constexpr int kMaxLeftOut = 255;
 constexpr std::size_t kMaxPieces = 4, kMaxPiecesLeftOut = 63;
+constexpr double kHighest_m = 2.5, kMostSigmaYaw_rad = 0.63;
 
 bool AllFinite(std::initializer_list<double> values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
+
+/// Standard deviations of a place across and along its own axes: x, y.
+Eigen::Vector2d OwnSigmas(const TrackedPlace& place) {
+  const Eigen::Matrix2d turn = place.map_from_thing.rotation();
+  return (turn.transpose() * place.covariance * turn).diagonal().cwiseMax(0).cwiseSqrt();
 }
 
 view_edge_t ToMessage(const ViewedEdge& edge) {
@@ -198,19 +205,41 @@ std::optional<door_seen_t> DoorSeenMessage(const LookAnswer& answer) {
 
 door_found_t ToMessage(const DoorTrack& door, DoorState state) {
   door_found_t message{};
+  const Pose2& place = door.place.map_from_thing;
   message.utime_seen = ToUtime(door.seen);
   message.id = static_cast<std::int16_t>(door.id);
-  message.x_m = door.map_from_door.x;
-  message.y_m = door.map_from_door.y;
-  message.yaw_rad = door.map_from_door.yaw;
+  message.x_m = place.x;
+  message.y_m = place.y;
+  message.yaw_rad = place.yaw;
   message.width_m = door.width_m;
-  const Eigen::Matrix2d turn = door.map_from_door.rotation();
-  const Eigen::Vector2d variance = (turn.transpose() * door.covariance * turn).diagonal();
-  message.sigma_across_m = std::sqrt(std::max(0.0, variance.x()));
-  message.sigma_along_m = std::sqrt(std::max(0.0, variance.y()));
+  const Eigen::Vector2d sigma = OwnSigmas(door.place);
+  message.sigma_across_m = sigma.x();
+  message.sigma_along_m = sigma.y();
   message.state = static_cast<std::int8_t>(state);
   message.log_odds = std::min(door.state.Lead(), 31.0);
   message.looks = static_cast<std::int8_t>(std::min(door.looks, 63));
+  return message;
+}
+
+scene_object_t ToMessage(const SceneTrack& track) {
+  scene_object_t message{};
+  const Pose2& place = track.place.map_from_thing;
+  const SceneObject& object = track.object;
+  message.utime_seen = ToUtime(track.seen);
+  message.id = static_cast<std::int16_t>(track.id);
+  message.kind = static_cast<std::int8_t>(object.kind);
+  message.x_m = place.x;
+  message.y_m = place.y;
+  message.yaw_rad = place.yaw;
+  message.width_m = object.width_m;
+  message.depth_m = object.depth_m;
+  message.bottom_m = std::clamp(object.bottom_m, 0.0, kHighest_m);
+  message.top_m = std::clamp(object.top_m, 0.0, kHighest_m);
+  const Eigen::Vector2d sigma = OwnSigmas(track.place);
+  message.sigma_across_m = sigma.x();
+  message.sigma_along_m = sigma.y();
+  message.sigma_yaw_rad = std::min(object.sigma_yaw_rad, kMostSigmaYaw_rad);
+  message.looks = static_cast<std::int8_t>(std::min(track.looks, 63));
   return message;
 }
 

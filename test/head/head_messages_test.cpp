@@ -49,8 +49,8 @@ TEST(HeadMessagesTest, ADoorThatWasFoundHasItsErrorsAlongTheWallAndAcross) {
   DoorTrack door;
   door.id = 4;
   door.seen = FromUtime(7'000'000);
-  door.map_from_door = {6, 1.1, Radians(90)};
-  door.covariance << 0.04 * 0.04, 0, 0, 0.01 * 0.01;  // of x, which is along the wall, and y
+  door.place.map_from_thing = {6, 1.1, Radians(90)};
+  door.place.covariance << 0.04 * 0.04, 0, 0, 0.01 * 0.01;  // of x, which is along the wall, and y
   door.width_m = 0.9;
   door.looks = 100;
   door.state.log_likelihood = {5, 1, 0};
@@ -61,6 +61,28 @@ TEST(HeadMessagesTest, ADoorThatWasFoundHasItsErrorsAlongTheWallAndAcross) {
   EXPECT_NEAR(message.sigma_across_m, 0.01, 1e-9);
   EXPECT_EQ(message.state, door_found_t::CLOSED);
   EXPECT_EQ(message.log_odds, 4);
+  EXPECT_EQ(message.looks, 63) << "as many as the field has";
+}
+
+TEST(HeadMessagesTest, AnObjectHasItsErrorsAlongItsFrontAndAcross) {
+  SceneTrack track;
+  track.id = 9;
+  track.seen = FromUtime(7'000'000);
+  track.place.map_from_thing = {2, 1, Radians(90)};
+  track.place.covariance << 0.04 * 0.04, 0, 0, 0.01 * 0.01;  // of x, which is along the front, and y
+  track.object = {ObjectKind::kBox, {}, {}, 2, 0.6, 0.4, 0, 3};
+  track.looks = 100;
+  const scene_object_t message = ToMessage(track);
+  EXPECT_EQ(message.utime_seen, 7'000'000);
+  EXPECT_EQ(message.id, 9);
+  EXPECT_EQ(message.kind, scene_object_t::BOX);
+  EXPECT_EQ(message.x_m, 2);
+  EXPECT_EQ(message.width_m, 0.6);
+  EXPECT_EQ(message.depth_m, 0.4);
+  EXPECT_EQ(message.top_m, 2.5) << "its bound";
+  EXPECT_NEAR(message.sigma_along_m, 0.04, 1e-9);
+  EXPECT_NEAR(message.sigma_across_m, 0.01, 1e-9);
+  EXPECT_EQ(message.sigma_yaw_rad, 0.63) << "its bound";
   EXPECT_EQ(message.looks, 63) << "as many as the field has";
 }
 

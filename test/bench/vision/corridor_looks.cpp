@@ -5,6 +5,7 @@
 
 #include "common/config.hpp"
 #include "head/head_config.hpp"
+#include "test/bench/vision/scene/eyes.hpp"
 #include "test/bench/vision/true_axes.hpp"
 #include "world/core/render/lighting.hpp"
 #include "world/core/scene/build_solids.hpp"
@@ -13,33 +14,8 @@ namespace priamos::bench {
 namespace {
 
 constexpr double kClear_m = 0.55;    // of the robot's middle from the walls
-constexpr double kHidden_m = 0.015;  // something stands so far before it
 constexpr int kAttempts = 12;        // to stand where a door is to be found
 constexpr int kZoomStep = 100;       // 840 px: nearly the widest that was calibrated
-
-/// Both cameras, for asking what they see.
-struct Eyes {
-  const std::array<head::CameraModel, 2>& cameras;
-  const world::Lighting& scene;
-  Pose2 map_from_base;
-  double border_px;
-
-  bool InPicture(const Eigen::Vector3d& in_base, double border) const {
-    return std::all_of(cameras.begin(), cameras.end(), [&](const head::CameraModel& camera) {
-      if (camera.Depth(in_base) <= 0) return false;
-      const Eigen::Vector2d px = camera.Distort(camera.Project(in_base));
-      return px.x() > border && px.x() < world::kImageWidth_px - 1 - border && px.y() > border &&
-             px.y() < world::kImageHeight_px - 1 - border;
-    });
-  }
-  bool Visible(const Eigen::Vector3d& in_base) const {
-    return std::all_of(cameras.begin(), cameras.end(), [&](const head::CameraModel& camera) {
-      const Eigen::Isometry3d map = world::Lift(map_from_base);
-      const Eigen::Vector3d eye = map * head::OpticalCentre(camera), direction = map * in_base - eye;
-      return scene.Distance(eye, direction.normalized(), direction.norm() + 1) > direction.norm() - kHidden_m;
-    });
-  }
-};
 
 /// The face of a door that is turned to the robot.
 struct Face {

@@ -2,7 +2,7 @@
 // images in the same run.
 //   bench_vision [--quick] [--photo FILE]... [--pair LEFT RIGHT CAMERA CAMERA]... [--only PART]...
 // PART: edges, stereo, photometry, order, door, lens, rooms, repeated, cupboard, budget, deceptions, leaves,
-// bodies, castle, detection, corridor, laser, greys. Prints one line per figure with its bound; exit 1 if one
+// bodies, castle, detection, corridor, laser, greys, scene. Prints one line per figure with its bound; exit 1 if one
 // is missed.
 #include <CLI/CLI.hpp>
 #include <opencv2/core/utility.hpp>
@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
   app.add_option("--only", only, "these parts only")
       ->check(CLI::IsMember({"edges", "stereo", "photometry", "order", "door", "lens", "rooms", "repeated",
                              "cupboard", "budget", "deceptions", "leaves", "bodies", "castle", "detection",
-                             "corridor", "laser", "greys"}));
+                             "corridor", "laser", "greys", "scene"}));
   CLI11_PARSE(app, argc, argv);
   cv::setNumThreads(1);
   const auto wanted = [&](std::string_view part) {
@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
   if (wanted("detection")) BenchDetection(options, figures);
   if (wanted("corridor")) BenchCorridor(options, figures);
   if (wanted("greys")) BenchGreys(options, figures);
+  if (wanted("scene")) BenchScene(options, figures);
   if (wanted("laser")) BenchLaser(options, figures);
   return figures.missed() > 0;
 }

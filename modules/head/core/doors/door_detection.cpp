@@ -24,11 +24,6 @@ constexpr double kSameCorners =
     0.3;  ///< share of the width: candidates with corners nearer in an image are one door
 constexpr double kSmallest_px = 16;  ///< least distance of the uprights in an image
 
-/// Height at which an image line passes the upright at `at`.
-double HeightOn(const ViewLine& line, const Eigen::Vector2d& at) {
-  return -(line.plane.x() * at.x() + line.plane.y() * at.y() + line.plane.w()) / line.plane.z();
-}
-
 std::vector<const ViewLine*> LevelLines(const CameraView& view) {
   std::vector<const ViewLine*> level;
   for (const ViewLine& line : view.lines)

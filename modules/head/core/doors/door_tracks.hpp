@@ -9,6 +9,8 @@
 #include "common/time.hpp"
 #include "head/core/doors/door_detection.hpp"
 #include "head/core/doors/door_state.hpp"
+#include "head/core/tracks/tracked_place.hpp"
+#include "head/core/tracks/turn_taking.hpp"
 
 namespace priamos::head {
 
@@ -21,7 +23,13 @@ struct DoorSighting {
 /// A door as all looks that showed it put it together.
 struct DoorTrack {
   int id = 0;
-  Time seen{};                 ///< exposure of the newest of them
+  Time seen{};         ///< exposure of the newest of them
+  TrackedPlace place;  ///< middle between its uprights; x away from where it was seen
+  double width_m = 0;
+  DoorStateEvidence state;
+  double log_odds = 0;  ///< of a door, of the look that told most
+  int looks = 0;
+};                 ///< exposure of the newest of them
   Pose2 map_from_door;         ///< middle between its uprights; x away from where it was seen
   Eigen::Matrix2d covariance;  ///< of that middle, map frame, without the error of the robot's pose [m^2]
   double width_m = 0;
@@ -35,19 +43,16 @@ struct DoorTrack {
 /// What is the same door, and when one is believed.
 struct DoorTrackOptions {
   double same_m = 0.65;       ///< sightings nearer to each other are one door
-  double drift = 0.01;        ///< error of the way driven between two looks, share of its length
-  double drift_m = 0.005;     ///< and of each look, beyond what the pictures tell
-  double gate = 4;            ///< sigmas; beyond that the door is put where it was seen last
+  PlaceOptions place;
   double max_sigma_m = 0.15;  ///< a sighting that claims more is of no use
   int min_looks = 2;          ///< that showed a door before it is told
   double max_state = 6;       ///< what all looks together may say of the state, so that a leaf may move
   double state_lead = 2;      ///< log likelihood wanted over the next best state
+  double told_for_s = 600;    ///< a door that was not seen for longest is not told again
   int most = 64;              ///< doors; of more, that goes which was not seen for longest
 };
 
-/// The doors that looks in passing have shown, map frame. Looks are taken for independent but for the drift
-/// of the pose between them; an error that all share, as that of the calibration, is in the covariance of
-/// each and stays: fused ones are never better than half of the best single one.
+/// The doors that looks in passing have shown, map frame.
 class DoorTracks {
  public:
   explicit DoorTracks(const DoorTrackOptions& options = {}) : options_(options) {}
@@ -59,6 +64,8 @@ class DoorTracks {
   /// Whether enough looks showed it.
   bool IsBelieved(const DoorTrack& track) const { return track.looks >= options_.min_looks; }
   DoorState StateOf(const DoorTrack& track) const { return track.state.State(options_.state_lead); }
+  /// Those that may be told now, for TurnTaking.
+  std::vector<Tellable> Tellables(Time now) const;
   /// All of them, in the order in which they were found.
   const std::vector<DoorTrack>& tracks() const { return tracks_; }
 
@@ -66,7 +73,6 @@ class DoorTracks {
   DoorTrack* Find(const Pose2& map_from_door);
   void Begin(DoorTrack seen);
   void Join(DoorTrack& track, const DoorTrack& seen) const;
-  void Place(DoorTrack& track, const DoorTrack& seen) const;
 
   DoorTrackOptions options_;
   std::vector<DoorTrack> tracks_;

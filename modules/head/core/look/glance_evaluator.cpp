@@ -4,14 +4,9 @@
 
 namespace priamos::head {
 
-std::vector<DoorSighting> GlanceEvaluator::Evaluate(const std::array<std::optional<GreyImage>, 2>& images,
-                                                    const HeadSetting& setting) {
+std::vector<DoorSighting> GlanceEvaluator::FindDoors(const StereoViews& views,
+                                                     const StereoPictures& pictures) const {
   std::vector<DoorSighting> sightings;
-  const auto left = head_.CameraAt(setting, kLeft), right = head_.CameraAt(setting, kRight);
-  if (!left || !right || !IsUsable(images[0]) || !IsUsable(images[1])) return sightings;
-  for (int i = 0; i < 2; ++i) edge_operator_.Extract(Wrap(*images[i]), edges_[i]);
-  const StereoViews views{MakeView(*left, edges_[0]), MakeView(*right, edges_[1])};
-  const StereoPictures pictures{{&*images[0], &*images[1]}, {&*left, &*right}};
   for (const DetectedDoor& door : DetectDoors(views[0], views[1], options_.detection)) {
     DoorSighting sighting{door, {}};
     const OpeningShape opening{door.base_from_door, door.width_m, door.height_m};
@@ -20,6 +15,18 @@ std::vector<DoorSighting> GlanceEvaluator::Evaluate(const std::array<std::option
     sightings.push_back(sighting);
   }
   return sightings;
+}
+
+Glance GlanceEvaluator::Evaluate(const std::array<std::optional<GreyImage>, 2>& images,
+                                 const HeadSetting& setting, bool with_doors) {
+  const auto left = head_.CameraAt(setting, kLeft), right = head_.CameraAt(setting, kRight);
+  if (!left || !right || !IsUsable(images[0]) || !IsUsable(images[1])) return {};
+  for (int i = 0; i < 2; ++i) edge_operator_.Extract(Wrap(*images[i]), edges_[i]);
+  const StereoViews views{MakeView(*left, edges_[0]), MakeView(*right, edges_[1])};
+  Glance glance;
+  if (with_doors) glance.doors = FindDoors(views, {{&*images[0], &*images[1]}, {&*left, &*right}});
+  glance.objects = ReconstructScene(views, nullptr, options_.scene);
+  return glance;
 }
 
 }  // namespace priamos::head

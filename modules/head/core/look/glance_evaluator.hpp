@@ -8,8 +8,15 @@
 #include "head/core/camera/head_model.hpp"
 #include "head/core/doors/door_tracks.hpp"
 #include "head/core/edges/edge_segments.hpp"
+#include "head/core/scene/scene_objects.hpp"
 
 namespace priamos::head {
+
+/// What a glance showed, base frame.
+struct Glance {
+  std::vector<DoorSighting> doors;
+  std::vector<SceneObject> objects;
+};
 
 /// Settings of a glance's evaluation.
 struct GlanceOptions {
@@ -18,21 +25,24 @@ struct GlanceOptions {
   SurfaceOptions surfaces;
   DoorStateOptions state;
   double max_state_m = 4;  ///< of farther doors the state is not looked for
+  SceneOptions scene;
 };
 
-/// Evaluates stereo pairs that were taken in passing, of no landmark: doors without a map, and whether they
-/// are open. Of earlier ones it keeps its buffers only.
+/// Evaluates stereo pairs that were taken in passing, of no landmark: doors without a map, whether they are
+/// open, and what else stands there. Of earlier ones it keeps its buffers only.
 class GlanceEvaluator {
  public:
   GlanceEvaluator(const HeadModel& head, const GlanceOptions& options)
       : head_(head), options_(options), edge_operator_(options.edges) {}
 
-  /// The doors in a pair taken with the motors at `setting`, base frame; none without both pictures and a
-  /// calibration there.
-  std::vector<DoorSighting> Evaluate(const std::array<std::optional<GreyImage>, 2>& images,
-                                     const HeadSetting& setting);
+  /// What a pair taken with the motors at `setting` shows; nothing without both pictures and a calibration
+  /// there. Doors are looked for `with_doors`.
+  Glance Evaluate(const std::array<std::optional<GreyImage>, 2>& images, const HeadSetting& setting,
+                  bool with_doors);
 
  private:
+  std::vector<DoorSighting> FindDoors(const StereoViews& views, const StereoPictures& pictures) const;
+
   HeadModel head_;
   GlanceOptions options_;
   EdgeOperator edge_operator_;

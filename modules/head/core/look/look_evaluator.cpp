@@ -21,19 +21,16 @@ LookEvaluator::LookEvaluator(const HeadModel& head, const LookOptions& options)
     : head_(head),
       leaf_options_(options.leaf),
       drift_options_(options.drift),
+      scene_options_(options.scene),
       edge_operator_(options.edges),
       finder_(options.finder) {}
 
-/// With the third camera's picture, where it is calibrated and its picture is of use.
-LandmarkFix LookEvaluator::Find(const LookInput& input, const LandmarkPrediction& expected,
-                                const StereoViews& views) {
-  std::vector<CameraView> all(views.begin(), views.end());
+/// The third camera, where it is calibrated and its picture is of use; extracts its edges.
+std::optional<CameraModel> LookEvaluator::ThirdCamera(const LookInput& input) {
   const auto third = head_.CameraAt(input.setting, kThird);
-  if (third && IsUsable(input.third)) {
-    edge_operator_.Extract(Wrap(*input.third), edges_[kThird]);
-    all.push_back(MakeView(*third, edges_[kThird]));
-  }
-  return known_[input.model->id].Find(finder_, *input.model, expected, all);
+  if (!third || !IsUsable(input.third)) return std::nullopt;
+  edge_operator_.Extract(Wrap(*input.third), edges_[kThird]);
+  return *third;
 }
 
 LookResult LookEvaluator::Evaluate(const LookInput& input) {
@@ -47,7 +44,10 @@ LookResult LookEvaluator::Evaluate(const LookInput& input) {
   const StereoViews views{MakeView(*left, edges_[0]), MakeView(*right, edges_[1])};
   const LandmarkPrediction expected = Predict(*input.robot, input.model->map_from_landmark);
   LookResult result;
-  result.fix = Find(input, expected, views);
+  const auto third = ThirdCamera(input);
+  std::vector<CameraView> all(views.begin(), views.end());
+  if (third) all.push_back(MakeView(*third, edges_[kThird]));
+  result.fix = known_[input.model->id].Find(finder_, *input.model, expected, all);
   result.n_third = static_cast<int>(std::ranges::count_if(
       result.fix.matches, [](const EdgeMatch& match) { return match.camera == kThird; }));
   if (result.fix.verdict == Verdict::kFound) {
@@ -57,6 +57,7 @@ LookResult LookEvaluator::Evaluate(const LookInput& input) {
   const int camera = CameraToShow(result.fix);
   result.view = ViewLandmark(*input.model, expected, result.fix, views[camera], camera);
   result.drift = MeasureLookDrift(*input.model, result.fix, views, drift_options_);
+  result.objects = ReconstructScene(views, third ? &all[kThird] : nullptr, scene_options_);
   return result;
 }
 

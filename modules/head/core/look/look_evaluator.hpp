@@ -13,6 +13,7 @@
 #include "head/core/landmark/landmark_view.hpp"
 #include "head/core/landmark/pose_history.hpp"
 #include "head/core/look/landmark_memory.hpp"
+#include "head/core/scene/scene_objects.hpp"
 
 namespace priamos::head {
 
@@ -32,6 +33,7 @@ struct LookResult {
   LandmarkView view;                 ///< edges that led to the verdict; empty without two usable images
   std::optional<LeafSight> leaf;     ///< leaf of the door found; nullopt: no door was found
   std::optional<StereoDrift> drift;  ///< turn of the right camera; nullopt: this look does not determine it
+  std::vector<SceneObject> objects;  ///< what else stands there, base frame
 };
 
 /// Settings of a look's evaluation.
@@ -40,6 +42,7 @@ struct LookOptions {
   LandmarkFixOptions finder;
   LeafOptions leaf;
   StereoDriftOptions drift;
+  SceneOptions scene;
 };
 
 /// Evaluates looks: edges of all images, undistorted once, then the landmark, a door's leaf, its view and
@@ -54,11 +57,12 @@ class LookEvaluator {
   LookResult Evaluate(const LookInput& input);
 
  private:
-  LandmarkFix Find(const LookInput& input, const LandmarkPrediction& expected, const StereoViews& views);
+  std::optional<CameraModel> ThirdCamera(const LookInput& input);
 
   HeadModel head_;
   LeafOptions leaf_options_;
   StereoDriftOptions drift_options_;
+  SceneOptions scene_options_;
   EdgeOperator edge_operator_;
   LandmarkFinder finder_;
   std::array<EdgeImage, kCameras> edges_;

@@ -14,11 +14,7 @@ void SideWatchConfig::Describe(Archive& a) {
 }
 
 std::optional<double> SideWatch::Step(bool needed, bool glancing, bool follows, Time now) {
-  if (needed) needed_ = now;
-  if (glancing) ended_ = now;
-  if (needed || glancing || !follows || !config_.corridors) return std::nullopt;
-  if (needed_ && Seconds(now - *needed_) < config_.idle_s) return std::nullopt;
-  if (ended_ && Seconds(now - *ended_) < config_.every_s) return std::nullopt;
+  if (!rhythm_.Step(needed, glancing, follows && config_.corridors, now)) return std::nullopt;
   side_ = -side_;
   return side_ * Radians(config_.pan_deg);
 }

@@ -5,6 +5,7 @@
 #include "common/archive.hpp"
 #include "common/time.hpp"
 #include "head/core/camera/head_setting.hpp"
+#include "head/core/motion/glance_rhythm.hpp"
 
 namespace priamos::head {
 
@@ -24,17 +25,18 @@ struct SideWatchConfig {
 /// else needs the head.
 class SideWatch {
  public:
-  explicit SideWatch(const SideWatchConfig& config) : config_(config) {}
+  explicit SideWatch(const SideWatchConfig& config)
+      : config_(config), rhythm_(config.every_s, config.idle_s) {}
 
-  /// One time step; a pan angle [rad]: begin a glance there. `needed`: a look or an operator moves the head;
-  /// `glancing`: one is under way; `follows`: the base drives along a corridor.
+  /// One time step; a pan angle [rad]: begin a glance there. `follows`: the base drives along a corridor; see
+  /// GlanceRhythm::Step.
   std::optional<double> Step(bool needed, bool glancing, bool follows, Time now);
   /// The setting of a glance at `pan_rad`; vergence and focus as in `base`.
   HeadSetting SettingAt(double pan_rad, HeadSetting base) const;
 
  private:
   SideWatchConfig config_;
-  std::optional<Time> needed_, ended_;
+  GlanceRhythm rhythm_;
   int side_ = 1;
 };
 

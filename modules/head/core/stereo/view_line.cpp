@@ -94,4 +94,8 @@ CameraView MakeView(const CameraModel& camera, const EdgeImage& edges) {
   return view;
 }
 
+double HeightOn(const ViewLine& line, const Eigen::Vector2d& at) {
+  return -(line.plane.head<2>().dot(at) + line.plane.w()) / line.plane.z();
+}
+
 }  // namespace priamos::head

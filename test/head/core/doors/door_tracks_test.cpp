@@ -34,7 +34,7 @@ TEST(DoorTracks, ADoorIsBelievedWhenTwoLooksShowIt) {
   ASSERT_EQ(dut.tracks().size(), 1u);
   EXPECT_TRUE(dut.IsBelieved(dut.tracks()[0]));
   EXPECT_EQ(dut.tracks()[0].seen, At(2));
-  EXPECT_NEAR(dut.tracks()[0].map_from_door.x, 2, 1e-9);
+  EXPECT_NEAR(dut.tracks()[0].place.map_from_thing.x, 2, 1e-9);
 }
 
 TEST(DoorTracks, DoorsThatAreApartAreTwo) {
@@ -54,9 +54,9 @@ TEST(DoorTracks, TheMeanOfManyLooksIsBetterThanOneAndDoesNotBoast) {
       dut.Add(std::array{Sighting(2 + rng.Normal(kSigma_m), 1 + rng.Normal(kSigma_m), kPi / 2)}, {},
               At(look));
     const DoorTrack& track = dut.tracks().at(0);
-    const Eigen::Vector2d off = track.map_from_door.translation() - Eigen::Vector2d(2, 1);
+    const Eigen::Vector2d off = track.place.map_from_thing.translation() - Eigen::Vector2d(2, 1);
     squares += off.squaredNorm();
-    nees += off.dot(track.covariance.inverse() * off);
+    nees += off.dot(track.place.covariance.inverse() * off);
   }
   EXPECT_LT(squares / kDoors, 2 * kSigma_m * kSigma_m / 3);
   EXPECT_LT(nees / kDoors, 2.4);
@@ -67,7 +67,7 @@ TEST(DoorTracks, WhatContradictsAllBeforeIsWhereTheDoorIs) {
   for (int look = 0; look < 3; ++look) dut.Add(std::array{Sighting(2, 1, kPi / 2)}, {}, At(look));
   dut.Add(std::array{Sighting(2.4, 1, kPi / 2)}, {}, At(4));
   ASSERT_EQ(dut.tracks().size(), 1u);
-  EXPECT_NEAR(dut.tracks()[0].map_from_door.x, 2.4, 1e-9);
+  EXPECT_NEAR(dut.tracks()[0].place.map_from_thing.x, 2.4, 1e-9);
 }
 
 TEST(DoorTracks, ASightingThatKnowsNothingOfItsPlaceIsLeftOut) {
@@ -92,7 +92,7 @@ TEST(DoorTracks, ForgetsAndKeepsNoMoreThanItMay) {
   DoorTracks dut(options);
   for (int i = 0; i < 3; ++i) dut.Add(std::array{Sighting(2 + 2 * i, 1, kPi / 2)}, {}, At(i));
   ASSERT_EQ(dut.tracks().size(), 2u);
-  EXPECT_NEAR(dut.tracks()[0].map_from_door.x, 4, 1e-9) << "the oldest has gone";
+  EXPECT_NEAR(dut.tracks()[0].place.map_from_thing.x, 4, 1e-9) << "the oldest has gone";
   dut.Forget();
   EXPECT_TRUE(dut.tracks().empty());
 }

@@ -18,18 +18,22 @@ GreyImage Black(int width = 768, int height = 576) {
   return {width, height, std::vector<std::uint8_t>(static_cast<std::size_t>(width) * height, 0)};
 }
 
-TEST(GlanceEvaluator, BlackPicturesShowNoDoor) {
+bool IsEmpty(const Glance& glance) {
+  return glance.doors.empty() && glance.objects.empty();
+}
+
+TEST(GlanceEvaluator, BlackPicturesShowNothing) {
   GlanceEvaluator dut(Calibrated(), {});
-  EXPECT_TRUE(dut.Evaluate({Black(), Black()}, kSetting).empty());
+  EXPECT_TRUE(IsEmpty(dut.Evaluate({Black(), Black()}, kSetting, true)));
 }
 
 TEST(GlanceEvaluator, WithoutBothPicturesOrACalibrationThereIsNone) {
   GlanceEvaluator dut(Calibrated(), {});
-  EXPECT_TRUE(dut.Evaluate({Black(), std::nullopt}, kSetting).empty());
-  EXPECT_TRUE(dut.Evaluate({Black(32, 32), Black()}, kSetting).empty());
+  EXPECT_TRUE(IsEmpty(dut.Evaluate({Black(), std::nullopt}, kSetting, true)));
+  EXPECT_TRUE(IsEmpty(dut.Evaluate({Black(32, 32), Black()}, kSetting, true)));
   HeadSetting elsewhere = kSetting;
   elsewhere.zoom_step = {100, 100};
-  EXPECT_TRUE(dut.Evaluate({Black(), Black()}, elsewhere).empty());
+  EXPECT_TRUE(IsEmpty(dut.Evaluate({Black(), Black()}, elsewhere, true)));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "head/door_search.hpp"
+#include "head/glances.hpp"
 
 #include <gmock/gmock.h>
 
@@ -22,7 +22,7 @@ HeadConfig Glancing() {
 }
 
 /// A robot that drives, and a path that the radio brought.
-class DoorSearchTest : public testing::Test {
+class GlancesTest : public testing::Test {
  protected:
   void Drive(Bench& head, double seconds, double speed_m_s = 0.3) {
     for (int i = 0; i < seconds * 50; ++i) {
@@ -47,7 +47,7 @@ class DoorSearchTest : public testing::Test {
   double x_m_ = 0;
 };
 
-TEST_F(DoorSearchTest, AlongACorridorTheHeadGlancesToBothSides) {
+TEST_F(GlancesTest, AlongACorridorTheHeadGlancesToBothSides) {
   Bench head(Glancing());
   Send(head, true);
   Drive(head, 3);
@@ -63,7 +63,7 @@ TEST_F(DoorSearchTest, AlongACorridorTheHeadGlancesToBothSides) {
   EXPECT_TRUE(head.fixes.Drain().empty()) << "nobody has asked";
 }
 
-TEST_F(DoorSearchTest, OnOtherPathsAndAtRestItDoesNot) {
+TEST_F(GlancesTest, OnOtherPathsAndAtRestItDoesNot) {
   Bench head(Glancing());
   Drive(head, 2);
   Send(head, false);
@@ -76,7 +76,7 @@ TEST_F(DoorSearchTest, OnOtherPathsAndAtRestItDoesNot) {
   EXPECT_FALSE(head.triggers.empty());
 }
 
-TEST_F(DoorSearchTest, ALookIsAnsweredAtOnce) {
+TEST_F(GlancesTest, ALookIsAnsweredAtOnce) {
   Bench head(Glancing());
   head.cameras_answer = false;  // a glance waits for its pictures
   Send(head, true);
@@ -90,7 +90,7 @@ TEST_F(DoorSearchTest, ALookIsAnsweredAtOnce) {
   EXPECT_EQ(fixes[0].request_id, 7);
 }
 
-TEST_F(DoorSearchTest, AHandHasTheHead) {
+TEST_F(GlancesTest, AHandHasTheHead) {
   Bench head(Glancing());
   Send(head, true);
   Drive(head, 1);
@@ -102,7 +102,21 @@ TEST_F(DoorSearchTest, AHandHasTheHead) {
   EXPECT_LE(head.triggers.size(), before + 1);
 }
 
-TEST(DoorSearch, GlancesWhereTheCamerasAreNotCalibratedAreRefused) {
+TEST_F(GlancesTest, OnOtherPathsTheHeadLooksAheadIfItIsToldTo) {
+  HeadConfig config = Glancing();
+  config.scene.ahead = true;
+  Bench head(config);
+  Drive(head, 2);
+  EXPECT_TRUE(head.triggers.empty()) << "no path leads it";
+  Send(head, false);
+  Drive(head, 4);
+  ASSERT_GE(head.triggers.size(), 2u);
+  ASSERT_FALSE(head.commands.empty());
+  EXPECT_NEAR(head.commands.back().pan_rad, 0, 0.01);
+  EXPECT_NEAR(head.commands.back().tilt_rad, Radians(config.scene.tilt_deg), 0.01);
+}
+
+TEST(Glances, GlancesWhereTheCamerasAreNotCalibratedAreRefused) {
   HeadConfig config;
   config.doors.corridors = true;
   EXPECT_THAT(support::ThrownReason([&] { Bench head(config); }), testing::HasSubstr("doors.zoom_step"));

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "common/archive.hpp"
+#include "head/core/camera/head_setting.hpp"
+#include "head/core/motion/glance_rhythm.hpp"
+
+namespace priamos::head {
+
+/// When and where the head looks ahead while the base drives.
+struct AheadWatchConfig {
+  bool ahead = false;    ///< glances ahead; without, the head waits for looks
+  double tilt_deg = 12;  ///< down: what stands on the floor, from 1.3 m before the head on
+  double every_s = 1.5;  ///< between the end of a glance and the beginning of the next one
+  double idle_s = 3;     ///< time after a look, or an operator's motion, before the first glance
+
+  void Describe(Archive& a);
+};
+
+/// Sequence of glances ahead, while the base drives and nobody else needs the head.
+class AheadWatch {
+ public:
+  explicit AheadWatch(const AheadWatchConfig& config)
+      : config_(config), rhythm_(config.every_s, config.idle_s) {}
+
+  /// One time step; true: begin a glance now. See GlanceRhythm::Step.
+  bool Step(bool needed, bool glancing, bool drives, Time now) {
+    return rhythm_.Step(needed, glancing, drives && config_.ahead, now);
+  }
+  /// The setting of a glance; vergence, zoom and focus as in `base`.
+  HeadSetting SettingFrom(HeadSetting base) const;
+
+ private:
+  AheadWatchConfig config_;
+  GlanceRhythm rhythm_;
+};
+
+}  // namespace priamos::head

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "head/core/stereo/edge_stereo.hpp"
+#include "head/core/stereo/view_line.hpp"
+
+namespace priamos::head {
+
+/// An upright rectangle of the base frame [m].
+struct FacePlane {
+  Eigen::Vector2d from, to;  ///< its ends on the floor
+  double bottom_m, top_m;
+
+  FacePlane(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double bottom, double top)
+      : from(a), to(b), bottom_m(bottom), top_m(top) {}
+};
+
+/// Whether edges of space are seen through it: those that appear within it and lie more than `behind_m`, and 3
+/// sigmas, behind its plane outweigh those on the plane.
+bool IsSeenThrough(const FacePlane& face, const CameraView& left, std::span<const StereoMatch> matches,
+                   double behind_m);
+
+}  // namespace priamos::head

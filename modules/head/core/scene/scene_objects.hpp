@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "common/geometry.hpp"
+#include "head/core/scene/upright_edges.hpp"
+#include "head/core/scene/upright_faces.hpp"
+#include "head/core/stereo/edge_stereo.hpp"
+
+namespace priamos::head {
+
+enum class ObjectKind {
+  kEdge,  ///< an upright edge that belongs to no face
+  kFace,  ///< an upright rectangle
+  kBox,   ///< two faces that meet at a right angle, as a box shows them
+};
+
+/// Something that stands on the floor, as one look reconstructed it.
+struct SceneObject {
+  ObjectKind kind = ObjectKind::kFace;
+  Pose2 base_from_front;  ///< middle of its front on the floor; x square to it, away from the head
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of that middle, base frame [m^2]
+  double sigma_yaw_rad = 0;
+  double width_m = 0;  ///< of the front; an edge: 0
+  double depth_m = 0;  ///< of a box, behind its front; else 0: not known
+  double bottom_m = 0, top_m = 0;
+};
+
+/// How the edges of a scene are matched and grouped.
+struct SceneOptions {
+  StereoOptions stereo;
+  UprightOptions uprights;
+  FaceOptions faces;
+  double square_rad = 0.2;      ///< faces of a box are square to each other within this and 3 sigmas
+  double same_top_m = 0.05;     ///< largest difference between the upper edges of a box's faces
+  double min_edge_m = 0.3;      ///< height of an edge that stands alone
+};
+
+/// Puts together what stands before the head (the paper's reconstruction of the scene): edges of space from
+/// both pictures, or all three with `third`, then upright faces, then boxes. What nothing joins to a face
+/// remains an edge.
+std::vector<SceneObject> ReconstructScene(const StereoViews& views, const CameraView* third,
+                                          const SceneOptions& options);
+
+}  // namespace priamos::head

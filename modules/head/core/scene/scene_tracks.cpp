@@ -1,0 +1,111 @@
+#include "head/core/scene/scene_tracks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace priamos::head {
+namespace {
+
+constexpr int kIds = 256;
+
+SceneTrack AsTrack(const SceneObject& object, const Pose2& map_from_base, Time exposure,
+                   const PlaceOptions& options) {
+  SceneTrack track;
+  track.seen = exposure;
+  track.place = PlaceOf(object.base_from_front, object.covariance, map_from_base, options);
+  track.object = object;
+  track.looks = 1;
+  track.map_from_first_base = map_from_base;
+  return track;
+}
+
+bool IsEdge(const SceneTrack& track) {
+  return track.object.kind == ObjectKind::kEdge;
+}
+
+double Apart(const SceneTrack& a, const SceneTrack& b) {
+  return (a.place.map_from_thing.translation() - b.place.map_from_thing.translation()).norm();
+}
+
+/// What is averaged, and what is known as soon as one look shows it.
+void JoinMeasures(const SceneObject& seen, double share, SceneObject& object) {
+  object.width_m += share * (seen.width_m - object.width_m);
+  object.bottom_m = std::min(object.bottom_m, seen.bottom_m);
+  object.top_m += share * (seen.top_m - object.top_m);
+  object.sigma_yaw_rad = std::min(object.sigma_yaw_rad, seen.sigma_yaw_rad);
+  if (seen.kind != ObjectKind::kBox) return;
+  object.depth_m = object.kind == ObjectKind::kBox ? object.depth_m + share * (seen.depth_m - object.depth_m)
+                                                   : seen.depth_m;
+  object.kind = ObjectKind::kBox;
+}
+
+}  // namespace
+
+bool SceneTracks::IsBelieved(const SceneTrack& track) const {
+  const double driven_m =
+      (track.place.map_from_base.translation() - track.map_from_first_base.translation()).norm();
+  return track.looks >= options_.min_looks && driven_m >= options_.min_driven_m;
+}
+
+std::vector<Tellable> SceneTracks::Tellables(Time now) const {
+  std::vector<Tellable> objects;
+  for (const SceneTrack& track : tracks_)
+    if (IsBelieved(track) && Seconds(now - track.seen) <= options_.told_for_s)
+      objects.push_back(
+          {track.id, track.place.map_from_thing.translation(), static_cast<int>(track.object.kind)});
+  return objects;
+}
+
+SceneTrack* SceneTracks::Find(const SceneTrack& seen) {
+  SceneTrack* nearest = nullptr;
+  double least_m = IsEdge(seen) ? options_.same_edge_m : options_.same_m;
+  for (SceneTrack& track : tracks_) {
+    if (IsEdge(track) != IsEdge(seen) || Apart(track, seen) > least_m) continue;
+    const double turn = WrapAngle(track.place.map_from_thing.yaw - seen.place.map_from_thing.yaw);
+    if (!IsEdge(seen) && std::abs(turn) > options_.same_yaw_rad) continue;
+    least_m = Apart(track, seen);
+    nearest = &track;
+  }
+  return nearest;
+}
+
+void SceneTracks::Begin(SceneTrack seen) {
+  if (tracks_.size() >= static_cast<std::size_t>(options_.most))
+    tracks_.erase(std::min_element(tracks_.begin(), tracks_.end(),
+                                   [](const auto& a, const auto& b) { return a.seen < b.seen; }));
+  last_id_ = (last_id_ + 1) % kIds;
+  seen.id = last_id_;
+  tracks_.push_back(std::move(seen));
+}
+
+void SceneTracks::Join(const SceneTrack& seen, SceneTrack& track) const {
+  const double share = Fuse(seen.place, options_.place, track.place);
+  JoinMeasures(seen.object, share, track.object);
+  track.seen = seen.seen;
+  ++track.looks;
+}
+
+/// An arris that once stood alone belongs to a front that a later look showed.
+bool SceneTracks::IsPartOfFront(const SceneTrack& edge) const {
+  return std::any_of(tracks_.begin(), tracks_.end(), [&](const SceneTrack& front) {
+    if (IsEdge(front)) return false;
+    const Eigen::Vector2d half(0, front.object.width_m / 2);
+    return DistanceToSegment(front.place.map_from_thing * Eigen::Vector2d(-half),
+                             front.place.map_from_thing * half,
+                             edge.place.map_from_thing.translation()) < options_.same_edge_m;
+  });
+}
+
+void SceneTracks::Add(std::span<const SceneObject> objects, const Pose2& map_from_base, Time exposure) {
+  for (const SceneObject& object : objects) {
+    SceneTrack seen = AsTrack(object, map_from_base, exposure, options_.place);
+    if (SigmaOf(seen.place.covariance) > options_.max_sigma_m) continue;
+    if (SceneTrack* track = Find(seen))
+      Join(seen, *track);
+    else
+      Begin(std::move(seen));
+  }
+  std::erase_if(tracks_, [&](const SceneTrack& track) { return IsEdge(track) && IsPartOfFront(track); });
+}
+
+}  // namespace priamos::head

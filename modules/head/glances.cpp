@@ -1,0 +1,90 @@
+#include "head/glances.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/archive.hpp"
+
+namespace priamos::head {
+namespace {
+
+/// A base that is slower stands. One that is farther on than this from one pose to the next was put
+/// elsewhere.
+constexpr double kDrives_m_s = 0.05, kJump_m = 0.3;
+
+/// The thing whose turn it is; nullptr: none.
+template <class Tracks>
+auto WhoseTurn(const Tracks& things, TurnTaking& turns, Time now) -> decltype(things.tracks().data()) {
+  const auto id = turns.Next(things.Tellables(now), now);
+  if (!id) return nullptr;
+  return &*std::ranges::find_if(things.tracks(), [&](const auto& track) { return track.id == *id; });
+}
+
+}  // namespace
+
+Glances::Glances(const HeadConfig& config, const HeadModel& head, bus::Context& context)
+    : base_(config.LookSetting()),
+      aside_(config.doors),
+      ahead_(config.scene),
+      evaluator_(head, {}),
+      path_(context.node().Subscribe(channels::kPath)),
+      door_found_(context.node().Advertise(channels::kDoorFound)),
+      scene_object_(context.node().Advertise(channels::kSceneObject)) {
+  if (!config.doors.corridors || config.mode == "calibrate") return;
+  for (const Camera camera : {kLeft, kRight}) {
+    const auto model = head.CameraAt(aside_.SettingAt(0, base_), camera);
+    if (!model)
+      throw ConfigError(
+          fmt::format("doors.zoom_step: {} camera: {}; calibrate it with `priamos-head "
+                      "--calibrate`, or set doors.corridors = false",
+                      kCameraNames[camera], model.reason()));
+  }
+}
+
+void Glances::OnPose(const PoseSample& pose) {
+  const bool jumped =
+      pose_ && (pose.map_from_base.translation() - pose_->map_from_base.translation()).norm() > kJump_m;
+  pose_ = pose;
+  if (!jumped) return;
+  doors_.Forget();
+  door_turns_.Forget();
+  objects_.Forget();
+  object_turns_.Forget();
+}
+
+/// Whether the base is driving on a path, along a corridor or another one. It needs no word over the radio.
+bool Glances::Follows(bool corridor) const {
+  const path_t* path = path_.get();
+  return path && path->centre == corridor && path->n_points > 0 && pose_ &&
+         std::hypot(pose_->twist.vx, pose_->twist.vy) > kDrives_m_s;
+}
+
+std::optional<HeadSetting> Glances::Next(bool needed, bool glancing, Time now) {
+  const auto pan = aside_.Step(needed, glancing, Follows(true), now);
+  const bool ahead = ahead_.Step(needed, glancing || pan, Follows(false), now);
+  if (!pan && !ahead) return std::nullopt;
+  to_the_side_ = pan.has_value();
+  return pan ? aside_.SettingAt(*pan, base_) : ahead_.SettingFrom(base_);
+}
+
+void Glances::Add(const std::array<std::optional<GreyImage>, 2>& pictures, const HeadSetting& setting,
+                  const PoseSample& robot) {
+  const Glance glance = evaluator_.Evaluate(pictures, setting, to_the_side_);
+  doors_.Add(glance.doors, robot.map_from_base, robot.time);
+  Add(glance.objects, robot);
+}
+
+void Glances::Add(std::span<const SceneObject> objects, const PoseSample& robot) {
+  objects_.Add(objects, robot.map_from_base, robot.time);
+}
+
+void Glances::Tell(Time now) {
+  if (const DoorTrack* door = WhoseTurn(doors_, door_turns_, now))
+    door_found_.Publish(ToMessage(*door, doors_.StateOf(*door)));
+  if (const SceneTrack* object = WhoseTurn(objects_, object_turns_, now))
+    scene_object_.Publish(ToMessage(*object));
+}
+
+}  // namespace priamos::head

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+
+#include "bus/context.hpp"
+#include "head/core/doors/door_tracks.hpp"
+#include "head/core/look/glance_evaluator.hpp"
+#include "head/core/motion/ahead_watch.hpp"
+#include "head/core/motion/side_watch.hpp"
+#include "head/core/scene/scene_tracks.hpp"
+#include "head/core/tracks/turn_taking.hpp"
+#include "head/head_config.hpp"
+#include "head/head_messages.hpp"
+
+namespace priamos::head {
+
+/// Looks around by itself while the base follows a path: to both sides of a corridor for doors, and ahead for
+/// what stands on the floor. Tells both, and what looks show beside their landmark (DOOR_FOUND,
+/// SCENE_OBJECT). It says where the head is to glance; who owns head and cameras takes the pictures.
+class Glances {
+ public:
+  /// Throws ConfigError when glances are wanted where the cameras are not calibrated.
+  Glances(const HeadConfig& config, const HeadModel& head, bus::Context& context);
+
+  /// Takes the robot's pose. Doors and objects keep their places as long as the pose goes on where it was.
+  void OnPose(const PoseSample& pose);
+  /// The setting of a glance to begin now, if any; see GlanceRhythm::Step.
+  std::optional<HeadSetting> Next(bool needed, bool glancing, Time now);
+  /// Takes the pictures of a glance, left and right, exposed at `robot` with the motors at `setting`.
+  void Add(const std::array<std::optional<GreyImage>, 2>& pictures, const HeadSetting& setting,
+           const PoseSample& robot);
+  /// Takes what a look showed beside its landmark.
+  void Add(std::span<const SceneObject> objects, const PoseSample& robot);
+  /// Tells a door and an object, when it is time.
+  void Tell(Time now);
+
+ private:
+  bool Follows(bool corridor) const;
+
+  HeadSetting base_;
+  SideWatch aside_;
+  AheadWatch ahead_;
+  bool to_the_side_ = false;  ///< the glance under way is one of a corridor
+  GlanceEvaluator evaluator_;
+  DoorTracks doors_;
+  SceneTracks objects_;
+  TurnTaking door_turns_, object_turns_;
+  std::optional<PoseSample> pose_;  ///< newest
+  bus::Latest<path_t> path_;
+  bus::Publisher<door_found_t> door_found_;
+  bus::Publisher<scene_object_t> scene_object_;
+};
+
+}  // namespace priamos::head
