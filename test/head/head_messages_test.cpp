@@ -70,7 +70,11 @@ TEST(HeadMessagesTest, AnObjectHasItsErrorsAlongItsFrontAndAcross) {
   track.seen = FromUtime(7'000'000);
   track.place.map_from_thing = {2, 1, Radians(90)};
   track.place.covariance << 0.04 * 0.04, 0, 0, 0.01 * 0.01;  // of x, which is along the front, and y
-  track.object = {ObjectKind::kBox, {}, {}, 2, 0.6, 0.4, 0, 3};
+  track.object.kind = ObjectKind::kBox;
+  track.object.sigma_yaw_rad = 2;
+  track.object.width_m = 0.6;
+  track.object.depth_m = 0.4;
+  track.object.top_m = 3;
   track.looks = 100;
   const scene_object_t message = ToMessage(track);
   EXPECT_EQ(message.utime_seen, 7'000'000);

@@ -7,6 +7,7 @@
 
 #include "head/core/doors/door_evidence.hpp"
 #include "head/core/doors/door_fit.hpp"
+#include "head/core/stereo/plan_line.hpp"
 
 namespace priamos::head {
 namespace {
@@ -29,25 +30,6 @@ std::vector<const ViewLine*> LevelLines(const CameraView& view) {
   for (const ViewLine& line : view.lines)
     if (std::abs(line.plane.z()) > kLevel) level.push_back(&line);
   return level;
-}
-
-/// The projection of an image line onto the floor plan, if it is a level edge at a given height.
-struct PlanLine {
-  Eigen::Vector2d normal;
-  double offset = 0;  ///< normal.dot(at) + offset = 0
-
-  PlanLine(const ViewLine& line, double z) {
-    const double scale = line.plane.head<2>().norm();
-    normal = line.plane.head<2>() / scale;
-    offset = (line.plane.z() * z + line.plane.w()) / scale;
-  }
-};
-
-std::optional<Eigen::Vector2d> Crossing(const PlanLine& a, const PlanLine& b) {
-  Eigen::Matrix2d m;
-  m << a.normal.transpose(), b.normal.transpose();
-  if (std::abs(m.determinant()) < 0.02) return std::nullopt;
-  return m.inverse() * Eigen::Vector2d(-a.offset, -b.offset);
 }
 
 class Detector {

@@ -29,15 +29,6 @@ struct DoorTrack {
   DoorStateEvidence state;
   double log_odds = 0;  ///< of a door, of the look that told most
   int looks = 0;
-};                 ///< exposure of the newest of them
-  Pose2 map_from_door;         ///< middle between its uprights; x away from where it was seen
-  Eigen::Matrix2d covariance;  ///< of that middle, map frame, without the error of the robot's pose [m^2]
-  double width_m = 0;
-  DoorStateEvidence state;
-  double log_odds = 0;  ///< of a door, of the look that told most
-  int looks = 0;
-  Pose2 map_from_base;     ///< from where it was seen last
-  Eigen::Matrix2d single;  ///< covariance of the look that told its place best [m^2]
 };
 
 /// What is the same door, and when one is believed.

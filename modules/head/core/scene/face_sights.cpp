@@ -10,48 +10,61 @@ namespace {
 constexpr double kBorder_m = 0.03;   ///< edges nearer to the border of the face may belong to it
 constexpr double kLeastShare = 0.2;  ///< of the face's height in the image, seen behind it: less is an outlier
 
-/// Where a point of space is, seen against a face.
-struct Sight {
-  bool inside = false;   ///< it appears within the face
-  double behind_m = 0;   ///< distance from its plane, away from the camera
-  double sigma_m = 0;    ///< of that distance
+/// A face as a camera sees it.
+class SeenFace {
+ public:
+  SeenFace(const FacePlane& face, const Eigen::Vector3d& eye)
+      : face_(face), eye_(eye), width_((face.to - face.from).norm()), along_((face.to - face.from) / width_) {
+    away_ = {-along_.y(), along_.x()};
+    if (away_.dot(face.from - eye.head<2>()) < 0) away_ = -away_;
+    eye_m_ = away_.dot(face.from - eye.head<2>());
+  }
+
+  /// Unit vector on the floor, square to it and away from the camera.
+  const Eigen::Vector2d& away() const { return away_; }
+  /// How far a point lies behind its plane [m].
+  double Behind(const Eigen::Vector3d& at) const { return away_.dot(at.head<2>() - face_.from); }
+  /// Whether a point appears within it, at least `border_m` from its border.
+  bool Shows(const Eigen::Vector3d& point, double border_m) const {
+    const double share = eye_m_ / std::max(1e-3, eye_m_ + Behind(point));
+    const Eigen::Vector3d at = eye_ + share * (point - eye_);
+    const double s = along_.dot(at.head<2>() - face_.from);
+    return eye_m_ > 0 && s > border_m && s < width_ - border_m && at.z() > face_.bottom_m + border_m &&
+           at.z() < face_.top_m - border_m;
+  }
+
+ private:
+  FacePlane face_;
+  Eigen::Vector3d eye_;
+  double width_;
+  Eigen::Vector2d along_, away_;
+  double eye_m_ = 0;  ///< distance of the camera from the plane
 };
 
-Sight SightOf(const FacePlane& face, const Eigen::Vector3d& eye, const SpaceEdge& edge) {
-  const Eigen::Vector3d middle = (edge.from + edge.to) / 2;
-  const double width = (face.to - face.from).norm();
-  const Eigen::Vector2d along = (face.to - face.from) / width;
-  Eigen::Vector2d away(-along.y(), along.x());
-  if (away.dot(face.from - eye.head<2>()) < 0) away = -away;
-  const double eye_m = away.dot(face.from - eye.head<2>());  // from the plane
-  Sight sight;
-  sight.behind_m = away.dot(middle.head<2>() - face.from);
+/// Standard deviation of the middle of an edge along a direction of the floor.
+double SigmaAlong(const SpaceEdge& edge, const Eigen::Vector2d& direction) {
   const Eigen::Matrix2d covariance =
-      (edge.covariance.block<2, 2>(0, 0) + edge.covariance.block<2, 2>(3, 3)) / 4 +
-      (edge.covariance.block<2, 2>(0, 3) + edge.covariance.block<2, 2>(3, 0)) / 4;
-  sight.sigma_m = std::sqrt(std::max(0.0, away.dot(covariance * away)));
-  const double share = eye_m / std::max(1e-3, eye_m + sight.behind_m);
-  const Eigen::Vector3d at = eye + share * (middle - eye);
-  const double s = along.dot(at.head<2>() - face.from);
-  sight.inside = eye_m > 0 && s > kBorder_m && s < width - kBorder_m && at.z() > face.bottom_m + kBorder_m &&
-                 at.z() < face.top_m - kBorder_m;
-  return sight;
+      (edge.covariance.block<2, 2>(0, 0) + edge.covariance.block<2, 2>(3, 3) + edge.covariance.block<2, 2>(0, 3) +
+       edge.covariance.block<2, 2>(3, 0)) /
+      4;
+  return std::sqrt(std::max(0.0, direction.dot(covariance * direction)));
 }
 
 }  // namespace
 
 bool IsSeenThrough(const FacePlane& face, const CameraView& left, std::span<const StereoMatch> matches,
                    double behind_m) {
-  const Eigen::Vector3d eye = OpticalCentre(*left.camera);
+  const SeenFace seen(face, OpticalCentre(*left.camera));
   double behind_px = 0, on_px = 0;
   for (const StereoMatch& match : matches) {
     if (!match.space) continue;
-    const Sight sight = SightOf(face, eye, *match.space);
-    if (!sight.inside) continue;
+    const Eigen::Vector3d middle = (match.space->from + match.space->to) / 2;
+    if (!seen.Shows(middle, kBorder_m)) continue;
+    const double behind = seen.Behind(middle), sigma = SigmaAlong(*match.space, seen.away());
     const double length_px = left.lines[match.left].length_px;
-    if (sight.behind_m > behind_m + 3 * sight.sigma_m)
+    if (behind > behind_m + 3 * sigma)
       behind_px += length_px;
-    else if (std::abs(sight.behind_m) < behind_m / 2 + 3 * sight.sigma_m)
+    else if (std::abs(behind) < behind_m / 2 + 3 * sigma)
       on_px += length_px;
   }
   const Eigen::Vector2d middle = (face.from + face.to) / 2;
@@ -59,6 +72,20 @@ bool IsSeenThrough(const FacePlane& face, const CameraView& left, std::span<cons
                             left.camera->Project({middle.x(), middle.y(), face.bottom_m}))
                                .norm();
   return behind_px > on_px + kLeastShare * height_px;
+}
+
+double Overlap(const FacePlane& face, const FacePlane& other, const CameraView& left) {
+  constexpr int kSteps = 8;
+  const SeenFace seen(other, OpticalCentre(*left.camera));
+  int within = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    for (int j = 0; j < kSteps; ++j) {
+      const Eigen::Vector2d at = face.from + (i + 0.5) / kSteps * (face.to - face.from);
+      const double z = face.bottom_m + (j + 0.5) / kSteps * (face.top_m - face.bottom_m);
+      within += seen.Shows({at.x(), at.y(), z}, 0);
+    }
+  }
+  return static_cast<double>(within) / (kSteps * kSteps);
 }
 
 }  // namespace priamos::head

@@ -22,4 +22,7 @@ struct FacePlane {
 bool IsSeenThrough(const FacePlane& face, const CameraView& left, std::span<const StereoMatch> matches,
                    double behind_m);
 
+/// The share of a face that appears, in the left image, where the other one does; 0 for faces that only meet.
+double Overlap(const FacePlane& face, const FacePlane& other, const CameraView& left);
+
 }  // namespace priamos::head

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "head/core/camera/projection.hpp"
 
@@ -11,16 +12,21 @@ namespace {
 
 class Grouping {
  public:
-  Grouping(const std::vector<UprightEdge>& uprights, const std::vector<UprightFace>& faces,
-           const Eigen::Vector2d& eye, const SceneOptions& options)
-      : uprights_(uprights), faces_(faces), eye_(eye), options_(options), used_(faces.size()) {}
+  Grouping(const StereoViews& views, const std::vector<UprightEdge>& uprights,
+           const std::vector<UprightFace>& faces, const SceneOptions& options)
+      : views_(views),
+        uprights_(uprights),
+        faces_(faces),
+        eye_(OpticalCentre(*views[0].camera).head<2>()),
+        options_(options),
+        used_(faces.size()) {}
 
   std::vector<SceneObject> Run() {
     for (std::size_t i = 0; i < faces_.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
         if (!used_[i] && !used_[j] && AreBox(faces_[i], faces_[j])) AddBox(i, j);
     for (std::size_t i = 0; i < faces_.size(); ++i)
-      if (!used_[i]) objects_.push_back(AsObject(faces_[i]));
+      if (!used_[i]) objects_.push_back(WithDepth(AsObject(faces_[i])));
     for (std::size_t i = 0; i < uprights_.size(); ++i)
       if (!IsOfFace(static_cast<int>(i))) AddEdge(uprights_[i]);
     return std::move(objects_);
@@ -37,23 +43,26 @@ class Grouping {
     return std::sqrt(across.dot(both * across)) / face.width_m;
   }
 
-  /// The upright edge that two faces share, if they have one.
-  static std::optional<int> Shared(const UprightFace& a, const UprightFace& b) {
-    if (a.right == b.left) return a.right;
-    if (a.left == b.right) return a.left;
+  /// Where two faces meet.
+  struct Corner {
+    Eigen::Vector2d at, to_a, to_b;  ///< place, and the ways from there to the other ends
+  };
+  std::optional<Corner> Meet(const UprightFace& a, const UprightFace& b) const {
+    for (const bool right_of_a : {true, false}) {
+      const Eigen::Vector2d at_a = right_of_a ? To(a) : From(a), at_b = right_of_a ? From(b) : To(b);
+      if ((at_a - at_b).norm() > options_.corner_m) continue;
+      return Corner{(at_a + at_b) / 2, (right_of_a ? From(a) : To(a)) - at_a, (right_of_a ? To(b) : From(b)) - at_b};
+    }
     return std::nullopt;
   }
 
-  static int OtherEnd(const UprightFace& face, int end) { return face.left == end ? face.right : face.left; }
-
   /// Square to each other, equally high, and with the corner towards the head: a recess has it behind.
   bool AreBox(const UprightFace& a, const UprightFace& b) const {
-    const auto corner = Shared(a, b);
+    const auto corner = Meet(a, b);
     if (!corner || std::abs(a.top_m - b.top_m) > options_.same_top_m) return false;
-    const Eigen::Vector2d at = uprights_[*corner].at, to_a = uprights_[OtherEnd(a, *corner)].at - at,
-                          to_b = uprights_[OtherEnd(b, *corner)].at - at;
-    if ((to_a.normalized() + to_b.normalized()).dot(at - eye_) <= 0) return false;
-    const double off = std::abs(std::asin(std::clamp(to_a.normalized().dot(to_b.normalized()), -1.0, 1.0)));
+    const Eigen::Vector2d along_a = corner->to_a.normalized(), along_b = corner->to_b.normalized();
+    if ((along_a + along_b).dot(corner->at - eye_) <= 0) return false;
+    const double off = std::abs(std::asin(std::clamp(along_a.dot(along_b), -1.0, 1.0)));
     return off < options_.square_rad + 3 * std::hypot(SigmaYaw(a), SigmaYaw(b));
   }
 
@@ -64,11 +73,24 @@ class Grouping {
     if (away.dot(middle - eye_) < 0) away = -away;
     object.base_from_front = {middle.x(), middle.y(), std::atan2(away.y(), away.x())};
     // The calibration's error is common to both edges: their mean is no better than one of them.
-    object.covariance = (uprights_[face.left].covariance + uprights_[face.right].covariance) / 2;
+    object.covariance = (uprights_[face.left].covariance + uprights_[face.right].covariance) / 2 + FrameError();
     object.sigma_yaw_rad = SigmaYaw(face);
     object.width_m = face.width_m;
     object.bottom_m = face.bottom_m;
     object.top_m = face.top_m;
+    return object;
+  }
+
+  Eigen::Matrix2d FrameError() const {
+    return options_.frame_sigma_m * options_.frame_sigma_m * Eigen::Matrix2d::Identity();
+  }
+
+  /// A front whose top is seen from above is that of a box.
+  SceneObject WithDepth(SceneObject object) const {
+    const auto depth = DepthBehind(views_, object.base_from_front, object.width_m, object.top_m, options_.depth);
+    if (!depth) return object;
+    object.kind = ObjectKind::kBox;
+    object.depth_m = *depth;
     return object;
   }
 
@@ -103,12 +125,13 @@ class Grouping {
     edge.kind = ObjectKind::kEdge;
     const Eigen::Vector2d away = upright.at - eye_;
     edge.base_from_front = {upright.at.x(), upright.at.y(), std::atan2(away.y(), away.x())};
-    edge.covariance = upright.covariance;
+    edge.covariance = upright.covariance + FrameError();
     edge.bottom_m = upright.bottom_m < options_.faces.on_floor_m ? 0 : upright.bottom_m;
     edge.top_m = upright.top_m;
     objects_.push_back(edge);
   }
 
+  const StereoViews& views_;
   const std::vector<UprightEdge>& uprights_;
   const std::vector<UprightFace>& faces_;
   Eigen::Vector2d eye_;
@@ -127,10 +150,10 @@ std::vector<SceneObject> ReconstructScene(const StereoViews& views, const Camera
     matches.insert(matches.end(), std::make_move_iterator(confirmed.begin()),
                    std::make_move_iterator(confirmed.end()));
   }
-  const std::vector<UprightEdge> uprights = FindUprights(matches, options.uprights);
+  std::vector<UprightEdge> uprights = FindUprights(matches, options.uprights);
+  AddUprightsAtLevelEnds(views, options.uprights, options.level_ends, uprights);
   const std::vector<UprightFace> faces = FindFaces(views, matches, uprights, options.faces);
-  const Eigen::Vector2d eye = OpticalCentre(*views[0].camera).head<2>();
-  return Grouping(uprights, faces, eye, options).Run();
+  return Grouping(views, uprights, faces, options).Run();
 }
 
 }  // namespace priamos::head

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "common/geometry.hpp"
+#include "head/core/scene/box_depth.hpp"
+#include "head/core/scene/level_ends.hpp"
 #include "head/core/scene/upright_edges.hpp"
 #include "head/core/scene/upright_faces.hpp"
 #include "head/core/stereo/edge_stereo.hpp"
@@ -31,10 +33,14 @@ struct SceneObject {
 struct SceneOptions {
   StereoOptions stereo;
   UprightOptions uprights;
+  LevelEndOptions level_ends;
   FaceOptions faces;
+  DepthOptions depth;
   double square_rad = 0.2;      ///< faces of a box are square to each other within this and 3 sigmas
+  double corner_m = 0.04;       ///< ends of two faces that are nearer meet
   double same_top_m = 0.05;     ///< largest difference between the upper edges of a box's faces
   double min_edge_m = 0.3;      ///< height of an edge that stands alone
+  double frame_sigma_m = 0.003; ///< error of the calibrated base frame, and of arrises that are not sharp
 };
 
 /// Puts together what stands before the head (the paper's reconstruction of the scene): edges of space from

@@ -41,7 +41,9 @@ std::optional<UprightEdge> AsUpright(const SpaceEdge& edge, const UprightOptions
   return upright;
 }
 
-bool IsSame(const UprightEdge& a, const UprightEdge& b, const UprightOptions& options) {
+}  // namespace
+
+bool AreOne(const UprightEdge& a, const UprightEdge& b, const UprightOptions& options) {
   if (std::max(a.bottom_m, b.bottom_m) - std::min(a.top_m, b.top_m) > options.gap_m) return false;
   const Eigen::Matrix2d bound = kSigmas * kSigmas * (a.covariance + b.covariance) +
                                 options.same_m * options.same_m * Eigen::Matrix2d::Identity();
@@ -49,13 +51,14 @@ bool IsSame(const UprightEdge& a, const UprightEdge& b, const UprightOptions& op
   return off.dot(bound.inverse() * off) < 1;
 }
 
+namespace {
+
 void Join(const UprightEdge& piece, UprightEdge& edge) {
   const Eigen::Matrix2d gain = edge.covariance * (edge.covariance + piece.covariance).inverse();
   edge.at += gain * (piece.at - edge.at);
   edge.covariance -= gain * edge.covariance;
   edge.bottom_m = std::min(edge.bottom_m, piece.bottom_m);
   edge.top_m = std::max(edge.top_m, piece.top_m);
-  edge.left_lines.insert(edge.left_lines.end(), piece.left_lines.begin(), piece.left_lines.end());
 }
 
 }  // namespace
@@ -68,7 +71,6 @@ std::vector<UprightEdge> FindUprights(std::span<const StereoMatch> matches, cons
     if (!upright || std::sqrt(upright->covariance.trace()) > options.max_sigma_m ||
         upright->at.norm() > options.max_distance_m)
       continue;
-    upright->left_lines = {match.left};
     pieces.push_back(*std::move(upright));
   }
   // The longest first: they say best where the others belong.
@@ -78,7 +80,7 @@ std::vector<UprightEdge> FindUprights(std::span<const StereoMatch> matches, cons
   std::vector<UprightEdge> edges;
   for (const UprightEdge& piece : pieces) {
     const auto same = std::find_if(edges.begin(), edges.end(),
-                                   [&](const UprightEdge& edge) { return IsSame(piece, edge, options); });
+                                   [&](const UprightEdge& edge) { return AreOne(piece, edge, options); });
     if (same == edges.end())
       edges.push_back(piece);
     else

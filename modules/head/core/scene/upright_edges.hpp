@@ -13,7 +13,6 @@ struct UprightEdge {
   Eigen::Vector2d at;             ///< place on the floor, base frame [m]
   Eigen::Matrix2d covariance;     ///< of that place [m^2]
   double bottom_m = 0, top_m = 0; ///< heights above the floor between which it was seen
-  std::vector<int> left_lines;    ///< its pieces: indices in the left view's lines
 };
 
 /// Which edges of space are upright, and which pieces are one edge.
@@ -25,6 +24,9 @@ struct UprightOptions {
   double gap_m = 0.25;           ///< largest gap of height between two pieces of one edge
   double max_distance_m = 6;     ///< from the origin of base
 };
+
+/// Whether two may be one edge: one place within their errors, and no large gap of height between them.
+bool AreOne(const UprightEdge& a, const UprightEdge& b, const UprightOptions& options);
 
 /// The upright ones among the matched edges, pieces above each other put together.
 std::vector<UprightEdge> FindUprights(std::span<const StereoMatch> matches, const UprightOptions& options);

@@ -2,28 +2,29 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
-#include <utility>
 
-#include "head/core/camera/projection.hpp"
-#include "head/core/doors/line_cover.hpp"
 #include "head/core/scene/face_sights.hpp"
 
 namespace priamos::head {
 namespace {
 
-constexpr double kLevel = 0.05;  ///< |z| of the unit normal of a line's plane: below it an upright
-constexpr double kSameHeight_m = 0.015;
-constexpr double kBeside_px = 3;
+constexpr double kQualityCounts = 4;     ///< how much more than the area of a face
+constexpr double kSameHeight_m = 0.004;  ///< level edges whose heights differ by less are tried once
+
+Eigen::Vector3d Above(const UprightEdge& edge, double z) {
+  return {edge.at.x(), edge.at.y(), z};
+}
 
 class FaceSearch {
  public:
   FaceSearch(const StereoViews& views, std::span<const UprightEdge> uprights, const FaceOptions& options)
       : views_(views), uprights_(uprights), options_(options) {
-    for (std::size_t c = 0; c < views.size(); ++c)
-      for (const ViewLine& line : views[c].lines)
-        if (std::abs(line.plane.z()) > kLevel) level_[c].push_back(&line);
+    for (const CameraView& view : views)
+      for (const ViewLine& line : view.lines)
+        if (IsLevel(line)) level_.push_back(&line);
   }
 
   /// The face between two upright edges, if there is one.
@@ -31,14 +32,16 @@ class FaceSearch {
     UprightFace face = InOrder(i, j);
     if (face.width_m < options_.min_width_m || face.width_m > options_.max_width_m) return std::nullopt;
     const UprightEdge &a = uprights_[face.left], &b = uprights_[face.right];
-    const double low = std::max(a.bottom_m, b.bottom_m), high = std::min(a.top_m, b.top_m);
-    if (high - low < options_.min_height_m) return std::nullopt;
-    const auto top = LevelAt(a, b, a.top_m, b.top_m), bottom = LevelAt(a, b, a.bottom_m, b.bottom_m);
-    if (!top && !bottom) return std::nullopt;
-    face.n_levels = (top ? 1 : 0) + (bottom ? 1 : 0);
-    face.top_m = top ? *top : high;
+    const double low = std::max(a.bottom_m, b.bottom_m);
+    if (std::min(a.top_m, b.top_m) - low < options_.min_height_m / 2) return std::nullopt;
+    const auto top = BestLevel(a, b, [&](double z) { return IsTop(a, b, low, z); });
+    if (!top) return std::nullopt;
+    const auto bottom = BestLevel(a, b, [&](double z) { return Joins(a, b, a.bottom_m, b.bottom_m, z); });
+    face.top_m = *top;
     face.bottom_m = bottom ? *bottom : std::min(a.bottom_m, b.bottom_m);
     if (face.bottom_m < options_.on_floor_m) face.bottom_m = 0;
+    face.quality = (CoverInBoth(views_, Above(a, *top), Above(b, *top)) + SidesSeen(a, b, low, *top)) / 3;
+    if (face.quality < options_.min_quality) return std::nullopt;
     return face;
   }
 
@@ -54,47 +57,50 @@ class FaceSearch {
     return face;
   }
 
-  /// Metres per pixel at an upright edge, in the left image.
-  double Scale_m(const UprightEdge& edge, double z) const {
-    const Eigen::Vector3d low(edge.at.x(), edge.at.y(), z);
+  /// Largest distance of the end of an upright edge from a level one, at that height.
+  double Near_m(const UprightEdge& edge, double z) const {
     const CameraModel& camera = *views_[0].camera;
-    return 0.1 / std::max(1e-6, (camera.Project(low + Eigen::Vector3d(0, 0, 0.1)) - camera.Project(low)).norm());
+    const double px = (camera.Project(Above(edge, z + 0.1)) - camera.Project(Above(edge, z))).norm();
+    return options_.corner_m + options_.corner_px * 0.1 / std::max(1e-6, px);
   }
 
-  /// Height of a level edge that joins two ends, each at its height.
-  std::optional<double> LevelAt(const UprightEdge& a, const UprightEdge& b, double end_a, double end_b) const {
-    const double near_a = options_.corner_m + options_.corner_px * Scale_m(a, end_a),
-                 near_b = options_.corner_m + options_.corner_px * Scale_m(b, end_b);
+  /// Whether two upright edges end at a height.
+  bool Joins(const UprightEdge& a, const UprightEdge& b, double end_a, double end_b, double z) const {
+    return std::abs(z - end_a) < Near_m(a, end_a) && std::abs(z - end_b) < Near_m(b, end_b);
+  }
+
+  /// Upright edges end at the top, or are seen in part only; then the level one must end where they stand.
+  bool IsTop(const UprightEdge& a, const UprightEdge& b, double low, double z) const {
+    if (z - low < options_.min_height_m || a.top_m > z + Near_m(a, z) || b.top_m > z + Near_m(b, z)) return false;
+    const bool joins = Joins(a, b, a.top_m, b.top_m, z);
+    return EndsInBoth(views_, Above(a, z), Above(b, z), joins ? EndRule::kReach : EndRule::kStop, options_.ends);
+  }
+
+  double SidesSeen(const UprightEdge& a, const UprightEdge& b, double low, double z) const {
+    return CoverInBoth(views_, Above(a, low), Above(a, z)) + CoverInBoth(views_, Above(b, low), Above(b, z));
+  }
+
+  /// The height of the level edge between two upright ones that is seen best, of those that are `fit`.
+  template <class Fit>
+  std::optional<double> BestLevel(const UprightEdge& a, const UprightEdge& b, Fit fit) const {
     std::optional<double> best;
     double most = options_.min_cover, last = 1e9;
-    for (const auto& level : level_) {
-      for (const ViewLine* line : level) {
-        const double za = HeightOn(*line, a.at), zb = HeightOn(*line, b.at), z = (za + zb) / 2;
-        if (std::abs(za - zb) > options_.level_m || std::abs(z - end_a) > near_a || std::abs(z - end_b) > near_b)
-          continue;
-        if (std::abs(z - last) < kSameHeight_m / 4) continue;
-        last = z;
-        const double cover = std::min(CoverIn(views_[0], a.at, b.at, z), CoverIn(views_[1], a.at, b.at, z));
-        if (cover < most || (best && cover <= most)) continue;
-        most = cover;
-        best = z;
-      }
+    for (const ViewLine* line : level_) {
+      const double za = HeightOn(*line, a.at), zb = HeightOn(*line, b.at), z = (za + zb) / 2;
+      if (std::abs(za - zb) > options_.level_m || std::abs(z - last) < kSameHeight_m || !fit(z)) continue;
+      last = z;
+      const double cover = CoverInBoth(views_, Above(a, z), Above(b, z));
+      if (cover < most) continue;
+      most = cover;
+      best = z;
     }
     return best;
-  }
-
-  double CoverIn(const CameraView& view, const Eigen::Vector2d& a, const Eigen::Vector2d& b, double z) const {
-    const Eigen::Vector3d from(a.x(), a.y(), z), to(b.x(), b.y(), z);
-    if (view.camera->Depth(from) <= 0 || view.camera->Depth(to) <= 0) return 0;
-    const ExpectedLine expected(view.camera->Project(from), view.camera->Project(to));
-    if (expected.length_px < options_.min_width_px) return 0;
-    return CoverOfAnyContrast(view, expected, kBeside_px).share;
   }
 
   const StereoViews& views_;
   std::span<const UprightEdge> uprights_;
   const FaceOptions& options_;
-  std::array<std::vector<const ViewLine*>, 2> level_;
+  std::vector<const ViewLine*> level_;
 };
 
 /// Whether `inner` lies on the plane of `outer` and within it.
@@ -111,8 +117,13 @@ bool IsWithin(const UprightFace& inner, const UprightFace& outer, std::span<cons
   return inner.top_m < outer.top_m + options.plane_m && inner.bottom_m > outer.bottom_m - options.plane_m;
 }
 
-double AreaOf(const UprightFace& face) {
-  return face.width_m * (face.top_m - face.bottom_m);
+double RankOf(const UprightFace& face) {
+  return face.width_m * (face.top_m - face.bottom_m) * std::pow(face.quality, kQualityCounts);
+}
+
+/// The plane in which a face lies, as far as it reaches.
+FacePlane PlaneOf(const UprightFace& face, std::span<const UprightEdge> uprights) {
+  return {uprights[face.left].at, uprights[face.right].at, face.bottom_m, face.top_m};
 }
 
 }  // namespace
@@ -124,17 +135,16 @@ std::vector<UprightFace> FindFaces(const StereoViews& views, std::span<const Ste
   for (int i = 0; i < static_cast<int>(uprights.size()); ++i)
     for (int j = 0; j < i; ++j)
       if (const auto face = search.Between(i, j)) candidates.push_back(*face);
-  std::stable_sort(candidates.begin(), candidates.end(), [](const UprightFace& a, const UprightFace& b) {
-    return std::pair(a.n_levels, AreaOf(a)) > std::pair(b.n_levels, AreaOf(b));
-  });
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const UprightFace& a, const UprightFace& b) { return RankOf(a) > RankOf(b); });
   std::vector<UprightFace> faces;
   for (const UprightFace& face : candidates) {
-    const bool known = std::any_of(faces.begin(), faces.end(), [&](const UprightFace& outer) {
-      return IsWithin(face, outer, uprights, options);
+    const FacePlane plane = PlaneOf(face, uprights);
+    const bool known = std::any_of(faces.begin(), faces.end(), [&](const UprightFace& other) {
+      return IsWithin(face, other, uprights, options) ||
+             Overlap(plane, PlaneOf(other, uprights), views[0]) > options.max_overlap;
     });
-    if (known) continue;
-    const FacePlane plane(uprights[face.left].at, uprights[face.right].at, face.bottom_m, face.top_m);
-    if (!IsSeenThrough(plane, views[0], matches, options.behind_m)) faces.push_back(face);
+    if (!known && !IsSeenThrough(plane, views[0], matches, options.behind_m)) faces.push_back(face);
   }
   return faces;
 }

@@ -1,9 +1,10 @@
 #include "test/bench/vision/scene/eyes.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "head/core/camera/projection.hpp"
-#include "world/core/camera/imaging.hpp"
+#include "world/core/camera/optics.hpp"
 
 namespace priamos::bench {
 namespace {

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "head/core/edges/edge_segments.hpp"
+#include "head/core/doors/door_detection.hpp"
+#include "head/core/look/usable_image.hpp"
 #include "head/core/scene/scene_objects.hpp"
 #include "test/bench/vision/scene/scene_looks.hpp"
 #include "test/bench/vision/vision_bench.hpp"
@@ -116,7 +117,7 @@ void BenchScene(const VisionOptions& options, Figures& figures) {
     for (int i = 0; i < n; ++i) {
       const SceneLook look = photographer.Take(options.seed + i, head);
       if (options.verbose) fmt::print("  look {}\n", options.seed + i);
-      for (int c = 0; c < 3; ++c) edges.Extract(Wrap(look.images[c]), seen[c]);
+      for (int c = 0; c < 3; ++c) edges.Extract(head::Wrap(look.images[c]), seen[c]);
       const head::StereoViews views{head::MakeView(look.calibrated[0], seen[0]),
                                     head::MakeView(look.calibrated[1], seen[1])};
       const head::CameraView above = head::MakeView(look.calibrated[2], seen[2]);

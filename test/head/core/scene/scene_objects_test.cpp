@@ -15,7 +15,7 @@ std::vector<SceneObject> ObjectsOf(const DrawnScene& scene) {
 
 TEST(SceneObjects, ABoxHasAFrontAndADepth) {
   DrawnScene scene;
-  const Pose2 front{2.6, -0.3, Radians(-25)};
+  const Pose2 front{2.6, -0.3, Radians(25)};
   scene.Box(front, 0.7, 0.5, 1.3);
   const auto objects = ObjectsOf(scene);
   ASSERT_EQ(objects.size(), 1u);
@@ -26,6 +26,17 @@ TEST(SceneObjects, ABoxHasAFrontAndADepth) {
   EXPECT_NEAR(objects[0].width_m, 0.7, 0.01);
   EXPECT_NEAR(objects[0].depth_m, 0.5, 0.02);
   EXPECT_NEAR(objects[0].top_m, 1.3, 0.02);
+}
+
+TEST(SceneObjects, ABoxWhoseSidesAreHiddenHasTheDepthOfItsTop) {
+  DrawnScene scene;
+  const Eigen::Vector2d left(2.6, 0.3), right(2.6, -0.3);
+  scene.Face(left, right, 0, 0.9);
+  scene.Level(left, {3, 0.3}, 0.9);
+  const auto objects = ObjectsOf(scene);
+  ASSERT_EQ(objects.size(), 1u);
+  EXPECT_EQ(objects[0].kind, ObjectKind::kBox);
+  EXPECT_NEAR(objects[0].depth_m, 0.4, 0.02);
 }
 
 TEST(SceneObjects, ACornerOfTheRoomIsNoBox) {

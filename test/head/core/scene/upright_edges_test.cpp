@@ -36,7 +36,6 @@ TEST(UprightEdges, PiecesAboveEachOtherAreOneEdge) {
   ASSERT_EQ(edges.size(), 1u);
   EXPECT_NEAR(edges[0].bottom_m, 0.6, 0.01);
   EXPECT_NEAR(edges[0].top_m, 1.6, 0.01);
-  EXPECT_EQ(edges[0].left_lines.size(), 2u);
 }
 
 TEST(UprightEdges, ThoseBesideEachOtherAreTwo) {

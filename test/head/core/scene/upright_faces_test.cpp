@@ -22,7 +22,6 @@ TEST(UprightFaces, ARectangleIsOneFace) {
   EXPECT_NEAR(faces[0].width_m, 0.728, 0.01);
   EXPECT_NEAR(faces[0].bottom_m, 0.5, 0.02);
   EXPECT_NEAR(faces[0].top_m, 1.4, 0.02);
-  EXPECT_EQ(faces[0].n_levels, 2);
 }
 
 TEST(UprightFaces, LeftIsOnTheLeftHandOfTheHead) {
@@ -57,7 +56,19 @@ TEST(UprightFaces, AHalfSeenLowerPartIsNotMissed) {
   scene.Level({3, 0.4}, {3, -0.3}, 1.4);
   const auto faces = FacesOf(scene);
   ASSERT_EQ(faces.size(), 1u);
-  EXPECT_EQ(faces[0].n_levels, 1);
+}
+
+TEST(UprightFaces, ALevelEdgeThatLeadsElsewhereIsNoTop) {
+  DrawnScene scene;
+  scene.Upright({3, 0.4}, 0.5, 1.4);
+  scene.Upright({3, -0.3}, 0.5, 1.1);  // its upper part was not seen
+  scene.Level({3, 0.4}, {3, -1.1}, 1.4);
+  EXPECT_TRUE(FacesOf(scene).empty());
+  DrawnScene ends_there;
+  ends_there.Upright({3, 0.4}, 0.5, 1.4);
+  ends_there.Upright({3, -0.3}, 0.5, 1.1);
+  ends_there.Level({3, 0.4}, {3, -0.3}, 1.4);
+  EXPECT_EQ(FacesOf(ends_there).size(), 1u);
 }
 
 TEST(UprightFaces, AnOpeningThroughWhichTheRoomIsSeenIsNone) {
