@@ -13,10 +13,11 @@ bool TurnTaking::IsNews(const Tellable& thing) const {
 std::optional<int> TurnTaking::Next(std::span<const Tellable> things, Time now) {
   if (last_ && Seconds(now - *last_) < options_.every_s) return std::nullopt;
   const Tellable* next = nullptr;
-  std::tuple<bool, Time> rank;
+  std::tuple<bool, int, Time> rank;
   for (const Tellable& thing : things) {
     const auto told = told_.find(thing.id);
-    const std::tuple here{!IsNews(thing), told == told_.end() ? Time{} : told->second.at};
+    const bool is_old = !IsNews(thing);
+    const std::tuple here{is_old, is_old ? 0 : -thing.weight, told == told_.end() ? Time{} : told->second.at};
     if (next && rank <= here) continue;
     next = &thing;
     rank = here;

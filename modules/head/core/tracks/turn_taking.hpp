@@ -14,6 +14,7 @@ struct Tellable {
   int id = 0;
   Eigen::Vector2d place;  ///< map [m]
   int state = 0;          ///< whatever is news when it changes
+  int weight = 0;         ///< of two that are news the heavier one goes first
 };
 
 /// How often things are told.

@@ -35,6 +35,16 @@ TEST(TurnTaking, WhatIsNewGoesFirst) {
   EXPECT_EQ(dut.Next(std::array{Thing(1), Thing(2, 4.11, 1)}, At(20)), 1);
 }
 
+TEST(TurnTaking, OfTwoThatAreNewsTheHeavierOneGoesFirst) {
+  TurnTaking dut;
+  Tellable heavy = Thing(2);
+  heavy.weight = 1;
+  const std::array things{Thing(1), heavy};
+  EXPECT_EQ(dut.Next(things, At(0)), 2);
+  EXPECT_EQ(dut.Next(things, At(5)), 1);
+  EXPECT_EQ(dut.Next(things, At(10)), 2) << "then in turn";
+}
+
 TEST(TurnTaking, AllHaveTheirTurn) {
   TurnTaking dut;
   const std::array things{Thing(1), Thing(2), Thing(3)};
