@@ -1,4 +1,4 @@
-#include "cli/report/map_picture.hpp"
+#include "cli/verbs/robot/map_picture.hpp"
 
 #include <fmt/format.h>
 
