@@ -141,6 +141,23 @@ TEST(ExploreMissionTest, AHoldIsNotWaitedForForEver) {
   EXPECT_THAT(s.dut.state().text, HasSubstr("has held on its way for 12 s: the pose is stale"));
 }
 
+TEST(ExploreMissionTest, WhatTheHeadSawIsDrivenAround) {
+  Story s;
+  s.floor = IdealFloor({{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}});  // 6 m x 4 m, from (1, 1) on
+  auto learned = std::make_shared<LearnedWalls>();
+  learned->objects = {BoxAt(3.2, 1.5, 0)};
+  s.dut.OnLearned(learned);
+  const Rectangle box = learned->objects[0].Footprint();
+  double least_m = 9;
+  ASSERT_TRUE(s.dut.Start(s.robot.now(), {kExplore}));
+  for (int i = 0; i < 4000 && s.dut.running(); ++i) {
+    s.robot.Step();
+    least_m = std::min(least_m, Distance(Footprint{}.At(s.robot.truth()), box));
+  }
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+  EXPECT_GT(least_m, 0.05);
+}
+
 TEST(ExploreMissionTest, ASecondOrderBeginsAnew) {
   Story s;
   s.Run(200);
