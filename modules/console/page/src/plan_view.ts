@@ -204,7 +204,8 @@ export class PlanView {
       this.fill(corners, style);
       this.context.globalAlpha = 1;
       this.stroke(corners, style, 1, true);
-      this.write(sizeText(thing), place(pose, d + 0.1, 0), style);
+      const [x, y] = corners.reduce((a, b) => (b[0] > a[0] ? b : a));
+      this.write(sizeText(thing), [x + 0.08, y], style);
     }
   }
 
