@@ -5,6 +5,7 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 
 namespace priamos::planner {
@@ -16,6 +17,11 @@ constexpr int kBatches = 256, kRemembered = 8;
 
 bool Within(double value, double low, double high) {
   return value >= low && value <= high;  // false for NaN
+}
+
+/// Of a field that is known not to be negative.
+unsigned char Counted(std::int8_t value) {
+  return static_cast<unsigned char>(value);
 }
 
 }  // namespace
@@ -57,9 +63,9 @@ std::optional<LearnedDoor> FromMessage(const door_found_t& m) {
   door.width_m = m.width_m;
   door.sigma_along_m = m.sigma_along_m;
   door.sigma_across_m = m.sigma_across_m;
-  door.state = kStates[static_cast<std::size_t>(m.state)];
+  door.state = kStates[Counted(m.state)];
   door.state_log_odds = m.log_odds;
-  door.looks = m.looks;
+  door.looks = Counted(m.looks);
   door.seen_s = static_cast<double>(m.utime_seen) * 1e-6;
   return door;
 }
@@ -76,7 +82,7 @@ std::optional<LearnedObject> FromMessage(const scene_object_t& m) {
   const bool has_front = good && (m.kind == scene_object_t::EDGE || m.width_m > 0);
   if (!has_front) return std::nullopt;
   LearnedObject object;
-  object.kind = kKinds[static_cast<std::size_t>(m.kind)];
+  object.kind = kKinds[Counted(m.kind)];
   object.x_m = m.x_m;
   object.y_m = m.y_m;
   object.yaw_deg = Degrees(WrapAngle(m.yaw_rad));
@@ -87,7 +93,7 @@ std::optional<LearnedObject> FromMessage(const scene_object_t& m) {
   object.sigma_along_m = m.sigma_along_m;
   object.sigma_across_m = m.sigma_across_m;
   object.sigma_yaw_deg = Degrees(m.sigma_yaw_rad);
-  object.looks = m.looks;
+  object.looks = Counted(m.looks);
   object.seen_s = static_cast<double>(m.utime_seen) * 1e-6;
   return object;
 }
