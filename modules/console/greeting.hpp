@@ -38,7 +38,8 @@ inline constexpr std::array kShownChannels{std::string_view("POSE"),
                                            std::string_view("SIMULATION"),
                                            std::string_view("FLOOR_MAP"),
                                            std::string_view("HEAD_STATE"),
-                                           std::string_view("DOOR_FOUND")};
+                                           std::string_view("DOOR_FOUND"),
+                                           std::string_view("SCENE_OBJECT")};
 
 /// Channels that the radio carries only while somebody looks at them.
 std::set<std::string> OnRequest(const bus::radio::LinkConfig& link);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 
 namespace priamos::planner {
@@ -16,6 +17,11 @@ constexpr int kBatches = 256, kRemembered = 8;
 
 bool Within(double value, double low, double high) {
   return value >= low && value <= high;  // false for NaN
+}
+
+/// Of a field that is known not to be negative.
+unsigned char Counted(std::int8_t value) {
+  return static_cast<unsigned char>(value);
 }
 
 }  // namespace
@@ -57,11 +63,39 @@ std::optional<LearnedDoor> FromMessage(const door_found_t& m) {
   door.width_m = m.width_m;
   door.sigma_along_m = m.sigma_along_m;
   door.sigma_across_m = m.sigma_across_m;
-  door.state = kStates[static_cast<std::size_t>(m.state)];
+  door.state = kStates[Counted(m.state)];
   door.state_log_odds = m.log_odds;
-  door.looks = m.looks;
+  door.looks = Counted(m.looks);
   door.seen_s = static_cast<double>(m.utime_seen) * 1e-6;
   return door;
+}
+
+std::optional<LearnedObject> FromMessage(const scene_object_t& m) {
+  constexpr double kMap_m = 100, kYaw = 3.15, kSize_m = 5.1, kHeight_m = 2.5, kSigma = 0.63;
+  constexpr std::array<const char*, 3> kKinds{"edge", "face", "box"};
+  const bool good = Within(m.kind, 0, 2) && Within(m.x_m, -kMap_m, kMap_m) &&
+                    Within(m.y_m, -kMap_m, kMap_m) && Within(m.yaw_rad, -kYaw, kYaw) &&
+                    Within(m.width_m, 0, kSize_m) && Within(m.depth_m, 0, kSize_m) &&
+                    Within(m.bottom_m, 0, kHeight_m) && Within(m.top_m, m.bottom_m, kHeight_m) &&
+                    Within(m.sigma_along_m, 0, kSigma) && Within(m.sigma_across_m, 0, kSigma) &&
+                    Within(m.sigma_yaw_rad, 0, kSigma) && Within(m.looks, 1, 63) && m.utime_seen >= 0;
+  const bool has_front = good && (m.kind == scene_object_t::EDGE || m.width_m > 0);
+  if (!has_front) return std::nullopt;
+  LearnedObject object;
+  object.kind = kKinds[Counted(m.kind)];
+  object.x_m = m.x_m;
+  object.y_m = m.y_m;
+  object.yaw_deg = Degrees(WrapAngle(m.yaw_rad));
+  object.width_m = m.kind == scene_object_t::EDGE ? 0 : m.width_m;
+  object.depth_m = m.kind == scene_object_t::BOX ? m.depth_m : 0;
+  object.bottom_m = m.bottom_m;
+  object.top_m = m.top_m;
+  object.sigma_along_m = m.sigma_along_m;
+  object.sigma_across_m = m.sigma_across_m;
+  object.sigma_yaw_deg = Degrees(m.sigma_yaw_rad);
+  object.looks = Counted(m.looks);
+  object.seen_s = static_cast<double>(m.utime_seen) * 1e-6;
+  return object;
 }
 
 features_ack_t BatchLog::Note(int store, int batch) {
@@ -90,6 +124,7 @@ MapKeeper::MapKeeper(const PlannerConfig& config, bus::Context& context)
       written_(map_.walls().revision),
       features_(context.node().SubscribeAll(channels::kFeatures)),
       doors_(context.node().SubscribeAll(channels::kDoorFound)),
+      objects_(context.node().SubscribeAll(channels::kSceneObject)),
       orders_(context.node().SubscribeAll(channels::kMapCommand)),
       acks_(context.node().Advertise(channels::kFeaturesAck)) {}
 
@@ -102,8 +137,8 @@ std::shared_ptr<const LearnedWalls> MapKeeper::Tick(Time now) {
   if (!greeted_ && map_.walls().walls.empty()) acks_.Publish(features_ack_t{});
   greeted_ = true;
   const bool was_reset = TakeOrders();
-  const bool new_walls = TakeFeatures(), new_doors = TakeDoors();
-  const bool changed = new_walls || new_doors || was_reset || std::exchange(replaced_, false);
+  const bool new_walls = TakeFeatures(), new_doors = TakeDoors(), new_objects = TakeObjects();
+  const bool changed = new_walls || new_doors || new_objects || was_reset || std::exchange(replaced_, false);
   const bool due = was_reset || !wrote_ || Seconds(now - *wrote_) >= kWriteEvery_s;
   if (due && IsToBeWritten()) {
     wrote_ = now;
@@ -147,6 +182,16 @@ bool MapKeeper::TakeDoors() {
   return changed;
 }
 
+bool MapKeeper::TakeObjects() {
+  bool changed = false;
+  for (const scene_object_t& message : objects_.Drain()) {
+    const auto told = FromMessage(message);
+    if (!told) context_.Log(bus::Level::kWarning, "a thing refused: numbers out of range");
+    changed = (told && map_.Take(*told)) || changed;
+  }
+  return changed;
+}
+
 bool MapKeeper::TakeOrders() {
   bool was_reset = false;
   for (const map_command_t& order : orders_.Drain()) {
@@ -154,12 +199,12 @@ bool MapKeeper::TakeOrders() {
       context_.Log(bus::Level::kWarning, fmt::format("map order {} refused: no such action", order.action));
       continue;
     }
-    const std::size_t walls = map_.walls().walls.size();
-    const std::size_t doors = map_.walls().doors.size();
+    const LearnedWalls& known = map_.walls();
+    context_.Log(bus::Level::kInfo,
+                 fmt::format("the learned map is forgotten: {} walls, {} doors, {} things",
+                             known.walls.size(), known.doors.size(), known.objects.size()));
     map_.Reset();
     was_reset = true;
-    context_.Log(bus::Level::kInfo,
-                 fmt::format("the learned map is forgotten: {} walls, {} doors", walls, doors));
   }
   return was_reset;
 }

@@ -20,6 +20,9 @@ std::optional<SeenWall> FromMessage(int store, const feature_t& message);
 /// A door as the map takes it; likewise.
 std::optional<LearnedDoor> FromMessage(const door_found_t& message);
 
+/// A thing as the map takes it; likewise.
+std::optional<LearnedObject> FromMessage(const scene_object_t& message);
+
 /// Which batches of a robot's features came, for FEATURES_ACK.
 class BatchLog {
  public:
@@ -51,6 +54,7 @@ class MapKeeper {
  private:
   bool TakeFeatures();
   bool TakeDoors();
+  bool TakeObjects();
   bool TakeOrders();
   bool IsToBeWritten() const;
   void Write();
@@ -65,6 +69,7 @@ class MapKeeper {
   BatchLog batches_;
   bus::Inbox<features_t> features_;
   bus::Inbox<door_found_t> doors_;
+  bus::Inbox<scene_object_t> objects_;
   bus::Inbox<map_command_t> orders_;
   bus::Publisher<features_ack_t> acks_;
   bool replaced_ = false;

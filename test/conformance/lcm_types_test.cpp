@@ -161,7 +161,8 @@ TEST(LcmTypes, RefuseOutsideTheRangeOfAnEnumerationOrAnIdentity) {
                   "parameter_order_t.process", "parameter_order_t.value", "parameter_value_t.outcome",
                   "parameter_value_t.process", "parameter_value_t.value", "pose_correction_t.verdict",
                   "probe_t.kind", "process_order_t.action", "process_report_t.outcome",
-                  "process_state_t.state", "scene_object_t.id", "scene_object_t.kind", "simulation_t.state", "view_edge_t.kind", "world_touch_t.kind"));
+                  "process_state_t.state", "scene_object_t.id", "scene_object_t.kind", "simulation_t.state",
+                  "view_edge_t.kind", "world_touch_t.kind"));
 }
 
 // ---- lcmtypes/channels.hpp

@@ -109,6 +109,68 @@ TEST(DoorMessage, NumbersOutOfRangeAreNoDoor) {
   EXPECT_TRUE(refused([](door_found_t& d) { d.utime_seen = -1; }));
 }
 
+scene_object_t Thing(double x_m = 3) {
+  scene_object_t thing{};
+  thing.utime_seen = 1'000'000'000;
+  thing.id = 2;
+  thing.kind = scene_object_t::BOX;
+  thing.x_m = x_m;
+  thing.y_m = 2.4;
+  thing.yaw_rad = 1.5;
+  thing.width_m = 0.6;
+  thing.depth_m = 0.4;
+  thing.top_m = 1.1;
+  thing.sigma_along_m = 0.02;
+  thing.sigma_across_m = 0.01;
+  thing.sigma_yaw_rad = 0.05;
+  thing.looks = 3;
+  return thing;
+}
+
+TEST(ObjectMessage, AThingIsWhatItSays) {
+  const auto dut = FromMessage(Thing());
+  ASSERT_TRUE(dut);
+  EXPECT_EQ(dut->kind, "box");
+  EXPECT_NEAR(dut->yaw_deg, Degrees(1.5), 1e-9);
+  EXPECT_EQ(dut->width_m, 0.6);
+  EXPECT_EQ(dut->depth_m, 0.4);
+  EXPECT_EQ(dut->top_m, 1.1);
+  EXPECT_NEAR(dut->sigma_yaw_deg, Degrees(0.05), 1e-9);
+  EXPECT_EQ(dut->seen_s, 1000);
+  EXPECT_EQ(dut->looks, 3);
+  scene_object_t edge = Thing();
+  edge.kind = scene_object_t::EDGE;
+  edge.width_m = 0;
+  ASSERT_TRUE(FromMessage(edge));
+  EXPECT_EQ(FromMessage(edge)->kind, "edge");
+  EXPECT_EQ(FromMessage(edge)->depth_m, 0);
+}
+
+TEST(ObjectMessage, NumbersOutOfRangeAreNoThing) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  const auto refused = [](const auto& damage) {
+    scene_object_t thing = Thing();
+    damage(thing);
+    return !FromMessage(thing);
+  };
+  EXPECT_TRUE(refused([](scene_object_t& t) { t.kind = 3; }));
+  EXPECT_TRUE(refused([](scene_object_t& t) { t.kind = -1; }));
+  EXPECT_TRUE(refused([](scene_object_t& t) { t.x_m = kNaN; }));
+  EXPECT_TRUE(refused([](scene_object_t& t) { t.y_m = -101; }));
+  EXPECT_TRUE(refused([](scene_object_t& t) { t.yaw_rad = 4; }));
+  EXPECT_TRUE(refused([](scene_object_t& t) { t.width_m = 0; })) << "a front without breadth";
+  EXPECT_TRUE(refused([](scene_object_t& t) { t.width_m = 6; }));
+  EXPECT_TRUE(refused([](scene_object_t& t) { t.depth_m = -0.1; }));
+  EXPECT_TRUE(refused([](scene_object_t& t) { t.bottom_m = kNaN; }));
+  EXPECT_TRUE(refused([](scene_object_t& t) { t.bottom_m = 1.2; })) << "it would end below where it begins";
+  EXPECT_TRUE(refused([](scene_object_t& t) { t.top_m = std::numeric_limits<double>::infinity(); }));
+  EXPECT_TRUE(refused([](scene_object_t& t) { t.sigma_along_m = -0.1; }));
+  EXPECT_TRUE(refused([](scene_object_t& t) { t.sigma_across_m = 1; }));
+  EXPECT_TRUE(refused([](scene_object_t& t) { t.sigma_yaw_rad = kNaN; }));
+  EXPECT_TRUE(refused([](scene_object_t& t) { t.looks = 0; }));
+  EXPECT_TRUE(refused([](scene_object_t& t) { t.utime_seen = -1; }));
+}
+
 TEST(BatchLog, SaysWhichOfTheLastEightCame) {
   BatchLog dut;
   EXPECT_EQ(dut.Note(7, 250).earlier, 0);
@@ -203,6 +265,26 @@ TEST_F(MapKeeperTest, DoorsAreWrittenAndForgottenWithTheRest) {
   orders_->Publish(order);
   station_->Run(2);
   EXPECT_THAT(LoadLearnedWalls(file_).doors, IsEmpty());
+}
+
+TEST_F(MapKeeperTest, ThingsAreWrittenAndForgottenWithTheRest) {
+  Begin();
+  auto objects = station_->other.Advertise(channels::kSceneObject);
+  objects.Publish(Thing());
+  scene_object_t damaged = Thing(9);
+  damaged.yaw_rad = std::numeric_limits<double>::infinity();
+  objects.Publish(damaged);
+  station_->Run(40);
+  const LearnedWalls map = LoadLearnedWalls(file_);
+  ASSERT_THAT(map.objects, SizeIs(1));
+  EXPECT_EQ(map.objects[0].kind, "box");
+  EXPECT_THAT(station_->log, testing::Contains(testing::HasSubstr("a thing refused: numbers out of range")));
+  map_command_t order{};
+  order.action = map_command_t::RESET;
+  orders_->Publish(order);
+  station_->Run(2);
+  EXPECT_THAT(LoadLearnedWalls(file_).objects, IsEmpty());
+  EXPECT_THAT(station_->log, testing::Contains(testing::HasSubstr("0 walls, 0 doors, 1 things")));
 }
 
 TEST_F(MapKeeperTest, ResetForgetsAtOnce) {

@@ -39,19 +39,6 @@ std::string StateOf(double open_deg) {
   return open_deg < kAjar_deg ? "ajar" : "open";
 }
 
-/// Moves a place of the true map to where the robot had it at that time.
-std::optional<Pose2> BeliefFromTruth(const RunRecord& record, std::int64_t utime) {
-  const auto truth = TruthAt(record, utime);
-  const auto nearest =
-      std::min_element(record.poses.begin(), record.poses.end(), [utime](const pose_t& a, const pose_t& b) {
-        return std::abs(a.utime - utime) < std::abs(b.utime - utime);
-      });
-  if (!truth || nearest == record.poses.end()) return std::nullopt;
-  const auto there = TruthAt(record, nearest->utime);
-  if (!there) return std::nullopt;
-  return Pose2{nearest->x_m, nearest->y_m, nearest->yaw_rad} * there->Inverse();
-}
-
 /// The doors at the end of the run.
 LearnedWalls MapOf(const RunRecord& record) {
   LearnedWalls map;

@@ -64,6 +64,7 @@ void RunRecord::AddOffboard(std::int64_t utime, std::string_view channel, std::s
   if (channel == channels::kMissionStatus.name) Append(mission, bytes);
   if (channel == channels::kFeatures.name) Append(features, bytes);
   if (channel == channels::kDoorFound.name) Append(doors, bytes);
+  if (channel == channels::kSceneObject.name) Append(objects, bytes);
   if (channel == channels::kAlarmAck.name) Append(acks, bytes);
   if (channel == channels::kFloorMap.name) AddMap(bytes);
   if (channel == channels::kLinkStatus.name) Append(offboard_link, bytes);

@@ -45,8 +45,9 @@ class RunRecord {
   std::vector<look_request_t> looks;
   std::vector<mission_command_t> orders;
   std::vector<mission_status_t> mission;
-  std::vector<features_t> features;  ///< walls as they came to the workstation
-  std::vector<door_found_t> doors;   ///< doors likewise
+  std::vector<features_t> features;     ///< walls as they came to the workstation
+  std::vector<door_found_t> doors;      ///< doors likewise
+  std::vector<scene_object_t> objects;  ///< and things
   std::vector<alarm_ack_t> acks;
   std::vector<floor_map_t> map;  ///< the planner's map, in the parts of the newest one
   /// Age of each pose when it came to the workstation [s]: what the radio costs in time.

@@ -134,6 +134,17 @@ nlohmann::ordered_json ToJson(const FoundDoors& doors) {
   return {{"on_the_way", on_the_way}, {"false", doors.false_ones}};
 }
 
+nlohmann::ordered_json ToJson(const FoundObjects& things) {
+  return {{"told", things.told()},
+          {"edges", things.edges},
+          {"faces", things.faces},
+          {"boxes", things.boxes},
+          {"standing", things.standing},
+          {"phantoms", things.phantoms},
+          {"front_p95_m", std::isfinite(things.front_p95_m) ? nlohmann::ordered_json(things.front_p95_m)
+                                                            : nlohmann::ordered_json(nullptr)}};
+}
+
 nlohmann::ordered_json ToJson(const ExploreSummary& explore) {
   return {{"reachable_m2", explore.reachable_m2},
           {"seen", explore.seen},
@@ -199,6 +210,7 @@ Summary Summarise(const RunRecord& record, const RunInfo& info) {
   if (crossing) summary.belief_at_door = BeliefAt(on_plan, info.door, crossing->utime);
   summary.corridor = CorridorSummaryOf(record);
   summary.doors = FoundDoorsOf(record, info);
+  summary.things = FoundObjectsOf(record, info);
   summary.explore = ExploreSummaryOf(record, info);
   summary.duration_s = Seconds(Duration(span.end_utime - span.begin_utime));
   summary.mean_speed_m_s = MeanSpeed(record);
@@ -234,6 +246,7 @@ nlohmann::ordered_json ToJson(const Summary& summary) {
            summary.belief_at_door ? ToJson(*summary.belief_at_door) : nlohmann::ordered_json(nullptr)},
           {"corridor", summary.corridor ? ToJson(*summary.corridor) : nlohmann::ordered_json(nullptr)},
           {"doors", summary.doors ? ToJson(*summary.doors) : nlohmann::ordered_json(nullptr)},
+          {"things", summary.things ? ToJson(*summary.things) : nlohmann::ordered_json(nullptr)},
           {"explore", summary.explore ? ToJson(*summary.explore) : nlohmann::ordered_json(nullptr)},
           {"duration_s", summary.duration_s},
           {"mean_speed_m_s", summary.mean_speed_m_s},

@@ -10,6 +10,7 @@
 #include "cli/report/report_corridor.hpp"
 #include "cli/report/report_explore.hpp"
 #include "cli/report/report_found_doors.hpp"
+#include "cli/report/report_found_objects.hpp"
 #include "cli/report/report_hand.hpp"
 #include "cli/report/report_record.hpp"
 #include "cli/report/report_touches.hpp"
@@ -56,6 +57,7 @@ struct Summary {
   std::optional<BeliefAtDoor> belief_at_door;      ///< when it crossed the door
   std::optional<CorridorSummary> corridor;         ///< only of one that follows a corridor
   std::optional<FoundDoors> doors;                 ///< that the head found in passing
+  std::optional<FoundObjects> things;              ///< that the head put together; only when any were told
   std::optional<ExploreSummary> explore;           ///< only of one that explores a floor
   double duration_s = 0;                           ///< from the order to the end of the mission
   double mean_speed_m_s = 0;                       ///< true distance over the time from first to last motion

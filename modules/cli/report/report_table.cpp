@@ -76,6 +76,16 @@ void PrintFoundDoors(std::ostream& out, const FoundDoors& doors) {
   if (doors.false_ones > 0) out << fmt::format("  {} told where none is\n", doors.false_ones);
 }
 
+void PrintFoundObjects(std::ostream& out, const FoundObjects& things) {
+  Rule(out, "things that the head saw");
+  out << fmt::format("  told                {}: {} boxes, {} faces, {} edges\n", things.told(), things.boxes,
+                     things.faces, things.edges);
+  out << fmt::format("  truly there         {}, and {} where no surface is within 10 cm\n", things.standing,
+                     things.phantoms);
+  out << fmt::format("  fronts              95 % within {:.1f} cm of a true surface\n",
+                     100 * things.front_p95_m);
+}
+
 void PrintHand(std::ostream& out, const HandSummary& hand) {
   Rule(out, "operator");
   out << fmt::format("  pushed for {:.0f} s; of the motion that was truly free {} was honoured\n",
@@ -103,6 +113,7 @@ void PrintSummary(std::ostream& out, const Summary& summary) {
     PrintDoor(out, summary);
   }
   if (summary.doors) PrintFoundDoors(out, *summary.doors);
+  if (summary.things) PrintFoundObjects(out, *summary.things);
   if (summary.hand) PrintHand(out, *summary.hand);
   Rule(out, "drive");
   out << fmt::format("  smallest gap        {:.1f} cm, {} contact{}\n", summary.min_gap_m * 100,

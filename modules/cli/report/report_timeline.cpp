@@ -25,6 +25,18 @@ std::optional<Pose2> TruthAt(const RunRecord& record, std::int64_t utime) {
   return Between(PoseOf(*before), PoseOf(*after), part);
 }
 
+std::optional<Pose2> BeliefFromTruth(const RunRecord& record, std::int64_t utime) {
+  const auto truth = TruthAt(record, utime);
+  const auto nearest =
+      std::min_element(record.poses.begin(), record.poses.end(), [utime](const pose_t& a, const pose_t& b) {
+        return std::abs(a.utime - utime) < std::abs(b.utime - utime);
+      });
+  if (!truth || nearest == record.poses.end()) return std::nullopt;
+  const auto there = TruthAt(record, nearest->utime);
+  if (!there) return std::nullopt;
+  return Pose2{nearest->x_m, nearest->y_m, nearest->yaw_rad} * there->Inverse();
+}
+
 std::optional<PoseError> ErrorOf(const RunRecord& record, const pose_t& pose) {
   const auto truth = TruthAt(record, pose.utime);
   if (!truth) return std::nullopt;

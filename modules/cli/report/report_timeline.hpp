@@ -12,6 +12,9 @@ namespace priamos::cli {
 /// Where the robot truly was at `utime`, between two truth messages; nullopt outside the record.
 std::optional<Pose2> TruthAt(const RunRecord& record, std::int64_t utime);
 
+/// Moves a place of the true map to where the robot had it at `utime`; nullopt outside the record.
+std::optional<Pose2> BeliefFromTruth(const RunRecord& record, std::int64_t utime);
+
 /// Error of the robot's pose estimate at one time.
 struct PoseError {
   std::int64_t utime = 0;

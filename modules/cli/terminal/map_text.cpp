@@ -55,6 +55,8 @@ std::string MapDots(const GroundPlan& plan, const LearnedWalls& learned, ScreenS
   for (const WallPlan& wall : plan.walls) box.extend(wall.from()).extend(wall.to());
   for (const LearnedWall& wall : learned.walls) box.extend(wall.from()).extend(wall.to());
   for (const LearnedDoor& door : learned.doors) box.extend(Eigen::Vector2d(door.x_m, door.y_m));
+  for (const LearnedObject& object : learned.objects)
+    for (const Eigen::Vector2d& corner : object.Footprint().Corners()) box.extend(corner);
   if (box.isEmpty()) return "";
   Dots dots(box, size);
   for (const WallPlan& wall : plan.walls) dots.Line(wall.from(), wall.to(), Braille::kDim);
@@ -64,7 +66,32 @@ std::string MapDots(const GroundPlan& plan, const LearnedWalls& learned, ScreenS
     dots.Line(at * Eigen::Vector2d(0, -door.width_m / 2), at * Eigen::Vector2d(0, door.width_m / 2),
               door.state == "open" ? Braille::kGreen : Braille::kRed);
   }
+  for (const LearnedObject& object : learned.objects) {
+    const auto corners = object.Footprint().Corners();
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      dots.Line(corners[i], corners[(i + 1) % corners.size()], Braille::kRed);
+  }
   return dots.Text(colour);
+}
+
+std::string ObjectTable(const LearnedWalls& learned, double now_s, std::optional<ScreenSize> size) {
+  TextTable table({{"", 9, true},
+                   {"front", 8, true},
+                   {"is", 5, true},
+                   {"size", 8, true},
+                   {"from", 6},
+                   {"to", 6},
+                   {"along", 6},
+                   {"across", 6},
+                   {"looks", 3},
+                   {"seen ago", 4}});
+  for (const LearnedObject& object : learned.objects)
+    table.Add({NameOf(object), fmt::format("({:.2f}, {:.2f})", object.x_m, object.y_m), object.kind,
+               object.kind == "edge" ? "" : SizeOf(object), fmt::format("{:.2f} m", object.bottom_m),
+               fmt::format("{:.2f} m", object.top_m), fmt::format("±{:.1f} cm", 100 * object.sigma_along_m),
+               fmt::format("±{:.1f} cm", 100 * object.sigma_across_m), fmt::format("{}x", object.looks),
+               Ago(now_s - object.seen_s)});
+  return size ? table.Render(*size) : table.Render();
 }
 
 std::string DoorTable(const GroundPlan& plan, const LearnedWalls& learned, double now_s,

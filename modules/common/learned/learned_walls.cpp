@@ -61,6 +61,11 @@ void LearnedWalls::Describe(Archive& a) {
   std::set<int> door_ids;
   for (const LearnedDoor& door : doors)
     if (!door_ids.insert(door.id).second) a.Refuse("doors", "every door with its own id");
+  a.List("objects", objects, "things that stand on the floor");
+  std::set<int> object_ids;
+  for (const LearnedObject& object : objects)
+    if (!object_ids.insert(object.id).second) a.Refuse("objects", "every thing with its own id");
+  if (objects.size() > kMostObjects) a.Refuse("objects", "at most 300 of them");
   if (doors.size() > static_cast<std::size_t>(kMostWalls)) a.Refuse("doors", "at most 100000 of them");
   if (walls.size() > static_cast<std::size_t>(kMostWalls)) a.Refuse("walls", "at most 100000 of them");
 }

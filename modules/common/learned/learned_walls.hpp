@@ -8,6 +8,7 @@
 #include "common/archive.hpp"
 #include "common/geometry.hpp"
 #include "common/learned/learned_door.hpp"
+#include "common/learned/learned_object.hpp"
 #include "common/rectangle.hpp"
 
 namespace priamos {
@@ -45,7 +46,8 @@ struct LearnedWalls {
   int version = kVersion;  ///< of the file's form
   int revision = 0;        ///< counts the changes
   std::vector<LearnedWall> walls;
-  std::vector<LearnedDoor> doors;  ///< in the order in which they were found
+  std::vector<LearnedDoor> doors;        ///< in the order in which they were found
+  std::vector<LearnedObject> objects{};  ///< in the order in which they were told last
 
   void Describe(Archive& a);
 };

@@ -39,7 +39,8 @@ std::string KeyOf(const std::string& channel, const News::Json& message, std::ui
   if (channel == "LINK_STATUS")
     return fmt::format("{} {} {}", channel, TextOf(message, "onboard"), TextOf(message, "first_channel"));
   if (channel == "LANDMARK_MODEL") return fmt::format("{} {}", channel, TextOf(message, "landmark_id"));
-  if (channel == "DOOR_FOUND") return fmt::format("{} {}", channel, TextOf(message, "id"));
+  if (channel == "DOOR_FOUND" || channel == "SCENE_OBJECT")
+    return fmt::format("{} {}", channel, TextOf(message, "id"));
   if (channel == "FLOOR_MAP") return fmt::format("{} {}", channel, TextOf(message, "part"));
   if (channel == "DOOR_SEEN") return fmt::format("{} {}", channel, TextOf(message, "landmark_id"));
   if (channel == "PROCESS_REPORT") return fmt::format("{} {}", channel, TextOf(message, "name"));

@@ -27,7 +27,7 @@ class News {
   };
 
   /// Most keys that are kept, whatever anybody sends; later ones are not taken.
-  static constexpr std::size_t kMostKeys = 256;
+  static constexpr std::size_t kMostKeys = 1024;
 
   void Put(const std::string& key, const std::string& channel, Time valid, Json message,
            std::string type = "");
@@ -42,8 +42,8 @@ class News {
 
 /// What distinguishes messages of a channel that do not replace each other: the process of HEALTH and
 /// PROCESS_STATE, the name in PROCESS_REPORT, the end and part of LINK_STATUS, the landmark of LANDMARK_MODEL
-/// and DOOR_SEEN, the door of DOOR_FOUND, the part of FLOOR_MAP; of ALARM and ALARM_ACK the last kKeptAlarms
-/// are kept. `count`: messages of the channel so far.
+/// and DOOR_SEEN, the door of DOOR_FOUND, the thing of SCENE_OBJECT, the part of FLOOR_MAP; of ALARM and
+/// ALARM_ACK the last kKeptAlarms are kept. `count`: messages of the channel so far.
 std::string KeyOf(const std::string& channel, const News::Json& message, std::uint64_t count);
 
 }  // namespace priamos::console

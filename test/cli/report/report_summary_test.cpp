@@ -92,6 +92,23 @@ TEST(ReportSummary, EmptyRecordHasNotPassed) {
   EXPECT_EQ(ToJson(dut)["lateral_at_door_m"], nullptr);
 }
 
+TEST(ReportSummary, ThingsThatWereToldAreJudged) {
+  RunRecord record = SyntheticRun{}.Record();
+  EXPECT_EQ(ToJson(Summarise(record, TestInfo()))["things"], nullptr);
+  scene_object_t told{};
+  told.utime_seen = record.truth[100].utime;
+  told.kind = scene_object_t::FACE;
+  told.width_m = 0.6;
+  told.top_m = 1;
+  told.looks = 2;
+  record.objects.push_back(told);
+  const auto dut = ToJson(Summarise(record, TestInfo()))["things"];
+  EXPECT_EQ(dut["told"], 1);
+  EXPECT_EQ(dut["faces"], 1);
+  EXPECT_EQ(dut["standing"].get<int>() + dut["phantoms"].get<int>(), 1);
+  EXPECT_TRUE(dut.contains("front_p95_m"));
+}
+
 TEST(ReportSummary, JsonHasExactlyTheAgreedKeys) {
   const auto dut = ToJson(Summarise(SyntheticRun{}.Record(), TestInfo()));
   const auto keys = [](const nlohmann::ordered_json& json) {
@@ -111,6 +128,7 @@ TEST(ReportSummary, JsonHasExactlyTheAgreedKeys) {
                                                  "belief_at_door",
                                                  "corridor",
                                                  "doors",
+                                                 "things",
                                                  "explore",
                                                  "duration_s",
                                                  "mean_speed_m_s",

@@ -42,6 +42,17 @@ TEST(ReportTable, ADriveByHandIsJudgedByWhatItsOperatorWished) {
   EXPECT_THAT(Printed(summary), HasSubstr("door plane"));
 }
 
+TEST(ReportTable, ThingsThatTheHeadSawAreShownWhenAnyWereTold) {
+  Summary summary;
+  EXPECT_THAT(Printed(summary), Not(HasSubstr("things")));
+  summary.things =
+      FoundObjects{.edges = 1, .faces = 2, .boxes = 3, .standing = 5, .phantoms = 1, .front_p95_m = 0.043};
+  const std::string dut = Printed(summary);
+  EXPECT_THAT(dut, HasSubstr("6: 3 boxes, 2 faces, 1 edges"));
+  EXPECT_THAT(dut, HasSubstr("5, and 1 where no surface is within 10 cm"));
+  EXPECT_THAT(dut, HasSubstr("95 % within 4.3 cm of a true surface"));
+}
+
 TEST(ReportTable, SaysWhatIsMissing) {
   const std::string dut = Printed(Summarise(RunRecord{}, TestInfo()));
   EXPECT_THAT(dut, HasSubstr("not passed"));

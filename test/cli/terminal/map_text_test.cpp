@@ -30,5 +30,26 @@ TEST(DoorTable, ADoorHasItsNameItsStateAndItsAge) {
   EXPECT_THAT(DoorTable(plan, learned, 1000, std::nullopt), testing::HasSubstr("door 'office'"));
 }
 
+TEST(ObjectTable, AThingHasItsPlaceItsSizeAndItsAge) {
+  LearnedWalls learned;
+  LearnedObject box;
+  box.id = 3;
+  box.kind = "box";
+  box.x_m = 6;
+  box.y_m = 1.1;
+  box.width_m = 0.6;
+  box.depth_m = 0.4;
+  box.top_m = 1.15;
+  box.sigma_across_m = 0.013;
+  box.seen_s = 990;
+  box.looks = 4;
+  learned.objects = {box};
+  const std::string dut = ObjectTable(learned, 1000, std::nullopt);
+  for (const char* words :
+       {"thing 3", "(6.00, 1.10)", "box", "0.60 x 0.40 m", "1.15 m", "±1.3 cm", "4x", "10 s"})
+    EXPECT_THAT(dut, testing::HasSubstr(words));
+  EXPECT_THAT(MapDots({}, learned, {}, true), testing::Not(testing::IsEmpty()));
+}
+
 }  // namespace
 }  // namespace priamos::cli

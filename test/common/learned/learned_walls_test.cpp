@@ -81,6 +81,39 @@ TEST_F(LearnedWallsTest, DoorsAreKeptAndNamedByThePlan) {
   EXPECT_EQ(NameOf(dut.doors[0], plan), "door 'office'");
 }
 
+TEST_F(LearnedWallsTest, ThingsAreKept) {
+  LearnedWalls walls = Some();
+  LearnedObject object;
+  object.id = 5;
+  object.kind = "box";
+  object.x_m = 6.1;
+  object.y_m = 1.1;
+  object.yaw_deg = -90;
+  object.width_m = 0.6;
+  object.depth_m = 0.4;
+  object.top_m = 1.12;
+  object.sigma_across_m = 0.015;
+  object.looks = 3;
+  walls.objects = {object};
+  ASSERT_TRUE(SaveLearnedWalls(file_, walls));
+  const LearnedWalls dut = LoadLearnedWalls(file_);
+  ASSERT_EQ(dut.objects.size(), 1u);
+  EXPECT_EQ(dut.objects[0].id, 5);
+  EXPECT_EQ(dut.objects[0].kind, "box");
+  EXPECT_EQ(dut.objects[0].yaw_deg, -90);
+  EXPECT_EQ(dut.objects[0].depth_m, 0.4);
+  EXPECT_EQ(dut.objects[0].top_m, 1.12);
+  EXPECT_EQ(dut.objects[0].sigma_across_m, 0.015);
+  EXPECT_EQ(dut.objects[0].looks, 3);
+}
+
+TEST_F(LearnedWallsTest, AFileFromBeforeThereWereThingsIsRead) {
+  std::ofstream(file_) << "version = 1\nrevision = 4\n[[walls]]\nid = 1\nx_m = 2\n";
+  const LearnedWalls dut = LoadLearnedWalls(file_);
+  EXPECT_EQ(dut.walls.size(), 1u);
+  EXPECT_TRUE(dut.objects.empty());
+}
+
 TEST_F(LearnedWallsTest, NoFileIsAnEmptyMap) {
   EXPECT_TRUE(LoadLearnedWalls(file_).walls.empty());
 }
@@ -96,6 +129,10 @@ TEST_F(LearnedWallsTest, DamagedFilesAreRefusedWithTheirLine) {
   EXPECT_THAT(Refused("version = 1\n[[walls]]\nid = 1\nx_m = nan\n"),
               HasSubstr("learned-map.toml:4:walls[0].x_m"));
   EXPECT_THAT(Refused("version = 1\n[[walls]]\nid = 1\n[[walls]]\nid = 1\n"), HasSubstr("its own id"));
+  EXPECT_THAT(Refused("version = 1\n[[objects]]\nid = 1\n[[objects]]\nid = 1\n"),
+              HasSubstr("every thing with its own id"));
+  EXPECT_THAT(Refused("version = 1\n[[objects]]\nid = 1\nkind = \"tree\"\n"),
+              HasSubstr("learned-map.toml:4:objects[0].kind"));
   EXPECT_THAT(Refused("version = "), HasSubstr("learned-map.toml:1"));
 }
 

@@ -28,7 +28,7 @@ TEST(News, APageGetsWhatIsNewerThanWhatItKnows) {
 
 TEST(News, KeysAreBoundedWhateverAnybodySends) {
   News dut;
-  for (int i = 0; i < 1000; ++i) dut.Put("HEALTH " + std::to_string(i), "HEALTH", {}, {});
+  for (int i = 0; i < 2000; ++i) dut.Put("HEALTH " + std::to_string(i), "HEALTH", {}, {});
   EXPECT_EQ(dut.Since(0).size(), News::kMostKeys);
   dut.Put("HEALTH 3", "HEALTH", {}, {{"state", 1}});
   EXPECT_EQ(dut.Since(dut.newest() - 1)[0]->key, "HEALTH 3") << "known ones go on";
@@ -44,6 +44,8 @@ TEST(News, MessagesThatDoNotReplaceEachOtherHaveKeysOfTheirOwn) {
   EXPECT_NE(KeyOf("ALARM", {}, 0), KeyOf("ALARM", {}, 1));
   EXPECT_NE(KeyOf("ALARM_ACK", {}, 0), KeyOf("ALARM_ACK", {}, 1));
   EXPECT_NE(KeyOf("DOOR_SEEN", {{"landmark_id", 1}}, 0), KeyOf("DOOR_SEEN", {{"landmark_id", 2}}, 0));
+  EXPECT_NE(KeyOf("DOOR_FOUND", {{"id", 1}}, 0), KeyOf("DOOR_FOUND", {{"id", 2}}, 0));
+  EXPECT_NE(KeyOf("SCENE_OBJECT", {{"id", 1}}, 0), KeyOf("SCENE_OBJECT", {{"id", 2}}, 0));
   EXPECT_EQ(KeyOf("HEALTH", {}, 0), "HEALTH ") << "a field that lacks is none";
 }
 

@@ -12,12 +12,12 @@
 #include "bus/process_config.hpp"
 #include "cli/options/folder_options.hpp"
 #include "cli/options/verb_setup.hpp"
-#include "cli/report/map_picture.hpp"
 #include "cli/supervise/up_state.hpp"
 #include "cli/terminal/bus_session.hpp"
 #include "cli/terminal/map_text.hpp"
 #include "cli/terminal/terminal_screen.hpp"
 #include "cli/verbs/robot/commands.hpp"
+#include "cli/verbs/robot/map_picture.hpp"
 #include "common/config.hpp"
 #include "common/config_printer.hpp"
 #include "common/drawing/svg.hpp"
@@ -107,6 +107,22 @@ nlohmann::ordered_json ToJson(const LearnedDoor& door, const GroundPlan& plan) {
           {"looks", door.looks}};
 }
 
+nlohmann::ordered_json ToJson(const LearnedObject& object) {
+  return {{"id", object.id},
+          {"kind", object.kind},
+          {"front_m", {object.x_m, object.y_m}},
+          {"yaw_deg", object.yaw_deg},
+          {"width_m", object.width_m},
+          {"depth_m", object.depth_m},
+          {"bottom_m", object.bottom_m},
+          {"top_m", object.top_m},
+          {"sigma_along_m", object.sigma_along_m},
+          {"sigma_across_m", object.sigma_across_m},
+          {"sigma_yaw_deg", object.sigma_yaw_deg},
+          {"seen_s", object.seen_s},
+          {"looks", object.looks}};
+}
+
 void PrintJson(const Maps& maps) {
   nlohmann::ordered_json json{{"file", maps.file}, {"revision", maps.learned.revision}};
   json["walls"] = nlohmann::ordered_json::array();
@@ -119,11 +135,13 @@ void PrintJson(const Maps& maps) {
                             {"sigma_width_m", gap.sigma_width_m}});
   json["doors"] = nlohmann::ordered_json::array();
   for (const LearnedDoor& door : maps.learned.doors) json["doors"].push_back(ToJson(door, maps.plan));
+  json["things"] = nlohmann::ordered_json::array();
+  for (const LearnedObject& object : maps.learned.objects) json["things"].push_back(ToJson(object));
   std::cout << json.dump() << "\n";
 }
 
 bool IsEmpty(const LearnedWalls& learned) {
-  return learned.walls.empty() && learned.doors.empty();
+  return learned.walls.empty() && learned.doors.empty() && learned.objects.empty();
 }
 
 void Print(const Maps& maps) {
@@ -135,6 +153,7 @@ void Print(const Maps& maps) {
       std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
   if (!maps.learned.walls.empty()) std::cout << MapTable(maps.learned, now_s, size);
   if (!maps.learned.doors.empty()) std::cout << DoorTable(maps.plan, maps.learned, now_s, size);
+  if (!maps.learned.objects.empty()) std::cout << ObjectTable(maps.learned, now_s, size);
 }
 
 /// 1 when nothing has been learned; the plan is shown all the same.

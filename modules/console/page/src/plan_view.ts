@@ -4,7 +4,7 @@ import { colour, prepare } from "./dom";
 import { Floor } from "./floor";
 import { deadReckoned, ellipse, place, Pose2, sonarPose } from "./geometry";
 import {
-  DoorFound, DoorSeen, DriveStatus, Hello, LIMIT_SONAR, ObstacleLine, Path, Point, Pose, SonarRanges,
+  DoorFound, DoorSeen, DriveStatus, Hello, LIMIT_SONAR, ObstacleLine, Path, Point, Pose, SCENE_EDGE, SceneObject, SonarRanges,
 } from "./protocol";
 import { Store } from "./store";
 import { Place } from "./target";
@@ -13,7 +13,14 @@ import { ViewPort } from "./view_port";
 const TRAIL_STEP_M = 0.03, LONGEST_TRAIL = 4000;
 const SONAR_HALF_RAD = 0.13;
 const LEAF_LEFT = 1;
+const LEAST_DEPTH_M = 0.05;  // of a thing of which only the front was seen
 const DOOR_STATES = ["", "closed", "ajar", "open"];
+
+/** `0.6 x 0.4 m, 1.1 m high`; of a front alone `0.6 m wide, 1.1 m high`. */
+function sizeText(thing: SceneObject): string {
+  const size = thing.depth_m > 0 ? `${thing.width_m.toFixed(1)} x ${thing.depth_m.toFixed(1)} m` : `${thing.width_m.toFixed(1)} m wide`;
+  return `${size}, ${thing.top_m.toFixed(1)} m high`;
+}
 
 export class PlanView {
   readonly port: ViewPort;
@@ -66,6 +73,7 @@ export class PlanView {
     if (robot !== undefined && this.follows) this.port.centre = [robot.x, robot.y];
     this.drawFloor();
     this.drawPlan(this.hello);
+    this.drawObjects();
     this.drawFoundDoors();
     this.stroke(this.trail, colour("trail"), 2);
     this.drawPath();
@@ -178,6 +186,26 @@ export class PlanView {
       this.stroke([place(pose, 0, -door.width_m / 2), place(pose, 0, door.width_m / 2)], colour("landmark"), 3);
       this.context.setLineDash([]);
       this.write(words, place(pose, 0.35, 0), colour("landmark"));
+    }
+  }
+
+  /** Things that the head put together: what they cover of the floor, with their size; a single edge is a dot. */
+  private drawObjects(): void {
+    const style = colour("learned");
+    for (const { message: thing } of this.store.all<SceneObject>("SCENE_OBJECT")) {
+      if (thing.kind === SCENE_EDGE) {
+        this.drawDot([thing.x_m, thing.y_m], "learned");
+        continue;
+      }
+      const pose = { x: thing.x_m, y: thing.y_m, yaw: thing.yaw_rad };
+      const w = thing.width_m / 2, d = Math.max(thing.depth_m, LEAST_DEPTH_M);
+      const corners = [place(pose, 0, -w), place(pose, d, -w), place(pose, d, w), place(pose, 0, w)];
+      this.context.globalAlpha = 0.25;
+      this.fill(corners, style);
+      this.context.globalAlpha = 1;
+      this.stroke(corners, style, 1, true);
+      const [x, y] = corners.reduce((a, b) => (b[0] > a[0] ? b : a));
+      this.write(sizeText(thing), [x + 0.08, y], style);
     }
   }
 

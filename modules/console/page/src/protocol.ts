@@ -163,6 +163,13 @@ export interface DoorSeen { landmark_id: number; hinge: number; open_rad: number
 /** A door that the head found in passing. */
 export interface DoorFound { id: number; x_m: number; y_m: number; yaw_rad: number; width_m: number; state: number }
 
+/** What the head put together from edges of space; kind: SCENE_EDGE, or a rectangle or box before which it stood. */
+export interface SceneObject {
+  id: number; kind: number; x_m: number; y_m: number; yaw_rad: number;
+  width_m: number; depth_m: number; bottom_m: number; top_m: number;
+}
+export const SCENE_EDGE = 0;
+
 export interface SonarRanges { range_m: number[] }
 
 export interface LandmarkView {

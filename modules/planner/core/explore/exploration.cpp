@@ -97,8 +97,11 @@ std::size_t Exploration::Here() const {
   return poses_.empty() ? 0 : poses_.size() - 1;
 }
 
-void Exploration::Learn(const LearnedWalls& walls) {
+void Exploration::Learn(const LearnedWalls& walls, const std::vector<NamedObstacle>& seen) {
   evidence_.walls = WithoutPassages(WithoutEdges(walls), evidence_.trail, clearance_m_ + 2 * kRaster_m);
+  evidence_.seen.clear();
+  for (const NamedObstacle& thing : seen)
+    if (!ClosesTrail(thing.shape)) evidence_.seen.push_back(thing.shape);
   Forget();
 }
 
@@ -135,7 +138,8 @@ bool Exploration::Knows(const Vector2d& heard) const {
   };
   const auto is_thing = [&](const Rectangle& thing) { return Distance(thing, heard) < kHeard_m; };
   return std::any_of(evidence_.walls.walls.begin(), evidence_.walls.walls.end(), is_wall) ||
-         std::any_of(evidence_.things.begin(), evidence_.things.end(), is_thing);
+         std::any_of(evidence_.things.begin(), evidence_.things.end(), is_thing) ||
+         std::any_of(evidence_.seen.begin(), evidence_.seen.end(), is_thing);
 }
 
 void Exploration::GiveUp(const Vector2d& target, std::string reason, bool for_good) {
@@ -252,6 +256,7 @@ std::vector<NamedObstacle> Exploration::ObstaclesFor(const FrontierGoal& goal) {
     }
   for (std::size_t i = known_.size(); i < evidence_.things.size(); ++i)
     obstacles.push_back({"what stopped the robot", evidence_.things[i]});
+  for (const Rectangle& thing : evidence_.seen) obstacles.push_back({"a thing that the head saw", thing});
   return obstacles;
 }
 

@@ -68,9 +68,9 @@ class Exploration {
   /// The places of the trail, as many as there are, as the map has them now. What stopped the base, and what
   /// was given up, moves with where it was then.
   void MoveTrail(const std::vector<Pose2>& trail);
-  /// Walls as they are known by now, in place of those before. Edges that were reported as walls are none,
-  /// and where the base drove through none is.
-  void Learn(const LearnedWalls& walls);
+  /// Walls, and things that the head saw, as they are known by now, in place of those before. Edges that were
+  /// reported as walls are none, and where the base drove through nothing is.
+  void Learn(const LearnedWalls& walls, const std::vector<NamedObstacle>& seen = {});
   /// What counts of them.
   const LearnedWalls& walls() const { return evidence_.walls; }
   /// Something that is no wall is here, of which one side is known only: it is made smaller as far as it
@@ -102,8 +102,8 @@ class Exploration {
   bool IsOpen(const FrontierGoal& goal);
   /// The frontiers that Choose() left, longest first.
   const std::vector<LeftFrontier>& left() const { return left_; }
-  /// Unknown cells beside free ones, and what stopped the base: what a way there keeps off, the unknown
-  /// around the goal excepted.
+  /// Unknown cells beside free ones, what stopped the base, and what the head saw: what a way there keeps
+  /// off, the unknown around the goal excepted.
   std::vector<NamedObstacle> ObstaclesFor(const FrontierGoal& goal);
 
   const ExploredGrid& grid();

@@ -81,7 +81,8 @@ double ExploredGrid::free_m2() const {
 void ExploredGrid::Close(const ExploredGridConfig& config, const ExploredEvidence& evidence) {
   for (const LearnedWall& wall : evidence.walls.walls) CloseWall(wall, false);
   for (const LearnedWall& piece : PresumedCorners(evidence.walls, config.corner_m)) CloseWall(piece, true);
-  for (const Rectangle& thing : evidence.things) CloseThing(thing);
+  for (const auto* things : {&evidence.things, &evidence.seen})
+    for (const Rectangle& thing : *things) CloseThing(thing);
 }
 
 /// One that is presumed is doubtful as a whole.

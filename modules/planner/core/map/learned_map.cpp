@@ -32,8 +32,11 @@ void LearnedMap::NoteOlder() {
 }
 
 void LearnedMap::Replace(LearnedWalls walls) {
+  walls.doors = std::move(walls_.doors);
+  if (walls.objects.empty()) walls.objects = std::move(walls_.objects);
   Reset();
-  walls_.walls = std::move(walls.walls);
+  walls.revision = walls_.revision;
+  walls_ = std::move(walls);
   NoteOlder();
 }
 

@@ -8,6 +8,7 @@
 
 #include "common/archive.hpp"
 #include "common/learned/learned_walls.hpp"
+#include "common/learned/object_book.hpp"
 
 namespace priamos::planner {
 
@@ -42,7 +43,10 @@ class LearnedMap {
   bool Take(const SeenWall& seen);
   /// Takes what a robot tells of a door, see EnterDoor(); likewise.
   bool Take(const LearnedDoor& told);
-  /// Holds these walls from now on, whatever robots told before.
+  /// Takes what a robot tells of a thing, see EnterObject(); likewise.
+  bool Take(const LearnedObject& told) { return EnterObject(told, walls_); }
+  /// Holds these walls from now on, whatever robots told before. Doors stay, and things unless it brings
+  /// some.
   void Replace(LearnedWalls walls);
   /// Forgets everything.
   void Reset();

@@ -56,6 +56,8 @@ ExploreMission::ExploreMission(const ExploreMissionConfig& config, const Footpri
       footprint_(footprint),
       planner_(config.route, footprint, plan),
       exploration_(config.choice, NeededWidth(config, footprint), ShapesOf(plan)),
+      drawn_(plan),
+      doors_(plan.doors),
       graph_(config.graph) {}
 
 std::optional<SeenFloor> ExploreMission::Seen() {
@@ -68,6 +70,9 @@ std::optional<Refusal> ExploreMission::Start(const MissionOrder& /*order*/) {
   planner_.Forget();
   exploration_.Reset();
   graph_.Reset();
+  objects_.Reset();
+  heard_.reset();
+  saw_ = false;
   trail_.clear();
   outcome_.reset();
   placing_ = Placing::kNo;
@@ -117,6 +122,7 @@ void ExploreMission::Note(MissionControl& control) {
   graph_.NoteAt(heard.pose->map_from_base, SecondsOf(heard.pose->stamp));
   if (begins && heard.learned)  // told before the order
     for (const LearnedWall& wall : heard.learned->walls) graph_.NoteWall({kNoStore, wall.id, false, wall});
+  NoteObjects(control);
   for (const SeenWall& seen : heard.told) graph_.NoteWall(seen);
   if (!heard.told.empty() && graph_.Settle()) {
     std::vector<Pose2> trail;
@@ -128,6 +134,15 @@ void ExploreMission::Note(MissionControl& control) {
   }
   const Pose2 base = BaseOf(control);
   if (exploration_.NoteAt(base)) trail_.push_back(graph_.AnchorOf(base));
+}
+
+void ExploreMission::NoteObjects(const MissionControl& control) {
+  const auto& learned = control.heard().learned;
+  if (!learned || learned == heard_) return;
+  heard_ = learned;
+  if (!objects_.Take(learned->objects, graph_)) return;
+  learned_ = false;
+  saw_ = true;
 }
 
 Pose2 ExploreMission::BaseOf(const MissionControl& control) const {
@@ -148,7 +163,10 @@ void ExploreMission::Order(MissionControl& control, PlannedPath path) {
 
 void ExploreMission::Learn(const Pose2& base) {
   if (std::exchange(learned_, true)) return;
-  exploration_.Learn(graph_.Walls());
+  LearnedWalls seen;
+  seen.objects = objects_.At(graph_);
+  if (heard_) seen.doors = heard_->doors;
+  exploration_.Learn(graph_.Walls(), ObstaclesOf(seen, drawn_, doors_));
   planner_.Learn(SureParts(exploration_.walls()), base);
 }
 
@@ -177,6 +195,7 @@ void ExploreMission::Reconsider(MissionControl& control) {
   considered_ = control.now();
   const Pose2 base = BaseOf(control);
   Learn(base);
+  if (std::exchange(saw_, false)) planner_.Take(exploration_.ObstaclesFor(*goal_), base);
   auto left = PointsLeft(control.path().points, control.heard().drive->remaining_m);
   for (Pose2& point : left) point = graph_.map_from_robot() * point;
   const Pose2& told = control.heard().pose->map_from_base;
@@ -328,7 +347,9 @@ std::string ExploreMission::Left() const {
 void ExploreMission::Finish(MissionControl& control) {
   outcome_ = fmt::format("explored {:.0f} m2 in {:.0f} s, {:.0f} m driven{}", exploration_.grid().free_m2(),
                          Seconds(control.now() - control.started()), exploration_.driven_m(), Left());
-  control.SendMap(exploration_.walls());
+  LearnedWalls made = exploration_.walls();
+  made.objects = objects_.At(graph_);  // where the robot is told to be on the map, too
+  control.SendMap(std::move(made));
   placing_ = Placing::kNo;
   Place(control);
 }

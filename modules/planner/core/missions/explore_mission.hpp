@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "common/outcome.hpp"
 #include "planner/core/explore/exploration.hpp"
 #include "planner/core/explore/seen_floor.hpp"
+#include "planner/core/graph/anchored_objects.hpp"
 #include "planner/core/graph/floor_graph.hpp"
 #include "planner/core/missions/explore_mission_config.hpp"
 #include "planner/core/missions/mission.hpp"
@@ -38,6 +40,7 @@ class ExploreMission : public Mission {
   /// How far the robot is with being told where it is.
   enum class Placing { kNo, kBrakes, kTold };
   void Note(MissionControl& control);
+  void NoteObjects(const MissionControl& control);
   Pose2 BaseOf(const MissionControl& control) const;
   void Order(MissionControl& control, PlannedPath path);
   void Learn(const Pose2& base);
@@ -61,9 +64,14 @@ class ExploreMission : public Mission {
   Footprint footprint_;
   RoutePlanner planner_;
   Exploration exploration_;
+  ObstacleMap drawn_;            ///< on the plan
+  std::vector<DoorPlan> doors_;  ///< of the plan
   FloorGraph graph_;
-  std::vector<GraphAnchor> trail_;  ///< of the places of the exploration's trail
-  Pose2 ordered_by_;                ///< the robot's frame in the map when a path was ordered last
+  AnchoredObjects objects_;                    ///< that the head saw
+  std::shared_ptr<const LearnedWalls> heard_;  ///< of which objects_ are
+  bool saw_ = false;                           ///< there are others since the path was ordered
+  std::vector<GraphAnchor> trail_;             ///< of the places of the exploration's trail
+  Pose2 ordered_by_;                           ///< the robot's frame in the map when a path was ordered last
   ProgressWatch progress_;
   bool begun_ = false;  ///< there was an order
   std::optional<FrontierGoal> goal_;

@@ -72,15 +72,17 @@ void GotoMission::Learn(const MissionControl& control) {
   if (learned_) planner_.Learn(*learned_, control.heard().pose->map_from_base);
 }
 
-/// A wall that is not on the plan, across the path: another way, if there is one. If there is none the base
-/// drives on; it may be able to do what the map does not know, and stops before what is there.
+/// A wall or a thing that is not on the plan, across the path: another way, if there is one. If there is none
+/// the base drives on; it may be able to do what the map does not know, and stops before what is there.
 void GotoMission::Reconsider(MissionControl& control) {
   if (learned_ == control.heard().learned) return;
   Learn(control);
   const Pose2& base = control.heard().pose->map_from_base;
-  if (planner_.AreFree(base, PointsLeft(control.path().points, control.heard().drive->remaining_m))) return;
+  const auto left = PointsLeft(control.path().points, control.heard().drive->remaining_m);
+  const std::string obstacle = planner_.InTheWay(base, left);
+  if (obstacle.empty()) return;
   if (Outcome<PlannedPath> path = planner_.Plan(base, goal_))
-    Drive(control, std::move(*path), "a wall that is not on the plan is in the way");
+    Drive(control, std::move(*path), "in the way: " + obstacle);
 }
 
 /// Where the goal is taken, by what is not on the plan for instance, the first place that does instead.

@@ -72,6 +72,7 @@ void RoutePlannerConfig::Describe(Archive& a) {
 RoutePlanner::RoutePlanner(const RoutePlannerConfig& config, const Footprint& footprint,
                            const GroundPlan& plan)
     : config_(config),
+      doors_(plan.doors),
       closed_(ClosedDoors(plan)),
       known_(footprint, MapOf(plan, true)),
       space_(known_),
@@ -94,7 +95,7 @@ void RoutePlanner::Forget() {
 }
 
 void RoutePlanner::Learn(const LearnedWalls& learned, const Pose2& map_from_base) {
-  learned_ = ObstaclesOf(learned, known_.obstacles());
+  learned_ = ObstaclesOf(learned, known_.obstacles(), doors_);
   EraseUnder(map_from_base, learned_);
   Rebuild();
 }
@@ -111,14 +112,14 @@ void RoutePlanner::Rebuild() {
     for (const NamedObstacle& obstacle : *obstacles) space_.Add(obstacle.name, obstacle.shape);
 }
 
-bool RoutePlanner::AreFree(const Pose2& map_from_start, const std::vector<Pose2>& points) const {
+std::string RoutePlanner::InTheWay(const Pose2& map_from_start, const std::vector<Pose2>& points) const {
   constexpr double kTouching_m = 0.01;
   Pose2 from = map_from_start;
   for (const Pose2& to : points) {
-    if (!space_.IsFree(from, to, kTouching_m)) return false;
+    if (!space_.IsFree(from, to, kTouching_m)) return space_.Along(from, to).obstacle;
     from = to;
   }
-  return true;
+  return "";
 }
 
 Outcome<PlannedPath> RoutePlanner::Plan(const Pose2& map_from_start, const Goal& goal) const {

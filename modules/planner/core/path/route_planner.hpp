@@ -37,8 +37,8 @@ class RoutePlanner {
   /// is known by one side only.
   void Take(std::vector<NamedObstacle> obstacles, const Pose2& map_from_base);
   void Forget();
-  /// Takes the walls into account that are not on the plan, in place of those before; but none where the base
-  /// stands: there is nothing.
+  /// Takes the walls and things into account that are not on the plan, in place of those before; but none
+  /// where the base stands: there is nothing.
   void Learn(const LearnedWalls& learned, const Pose2& map_from_base);
 
   /// Straight lines with evenly turning heading to the goal, as few as there may be; each but the last 60 cm
@@ -51,7 +51,11 @@ class RoutePlanner {
     return space_.DistanceAt(map_from_base) >= config_.least_margin_m;
   }
   /// Whether the lines from a start to `points` touch nothing.
-  bool AreFree(const Pose2& map_from_start, const std::vector<Pose2>& points) const;
+  bool AreFree(const Pose2& map_from_start, const std::vector<Pose2>& points) const {
+    return InTheWay(map_from_start, points).empty();
+  }
+  /// Name of what the first of these lines that is not free touches; empty: nothing is in the way.
+  std::string InTheWay(const Pose2& map_from_start, const std::vector<Pose2>& points) const;
   /// Why no route can begin or end there, whatever lies between.
   std::optional<Refusal> CheckEnds(const Pose2& start, const Goal& goal) const;
 
@@ -64,7 +68,8 @@ class RoutePlanner {
   Refusal NoWay(const Pose2& start, const Goal& goal) const;
 
   RoutePlannerConfig config_;
-  std::vector<DoorPlan> closed_;  ///< doors whose leaf is not known
+  std::vector<DoorPlan> doors_;   ///< of the plan
+  std::vector<DoorPlan> closed_;  ///< those whose leaf is not known
   std::vector<NamedObstacle> added_, learned_;
   SweptFootprint known_;  ///< the plan
   SweptFootprint space_;  ///< and what was added

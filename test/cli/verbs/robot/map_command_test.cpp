@@ -35,6 +35,19 @@ class MapCommand : public testing::Test {
       wall.seen_s = 1000;
       learned.walls.push_back(wall);
     }
+    LearnedObject box;
+    box.id = 3;
+    box.kind = "box";
+    box.x_m = 4;
+    box.y_m = 2;
+    box.width_m = 0.6;
+    box.depth_m = 0.4;
+    box.top_m = 1.1;
+    learned.objects = {box};
+    box.id = 4;
+    box.kind = "edge";
+    box.x_m = 5;
+    learned.objects.push_back(box);
     SaveLearnedWalls(file_, learned);
   }
   PriamosAnswer Map(std::vector<std::string> more) {
@@ -53,6 +66,7 @@ TEST_F(MapCommand, ShowsPlanAndLearnedWalls) {
   EXPECT_EQ(answer.err, "");
   EXPECT_THAT(answer.out, HasSubstr("wall 1   (3.00, 0.25)  (3.00, 1.75)"));
   EXPECT_THAT(answer.out, HasSubstr("gap 1-2"));
+  EXPECT_THAT(answer.out, HasSubstr("thing 3  (4.00, 2.00)  box"));
   EXPECT_THAT(answer.out, HasSubstr("⠒")) << "a picture of dots";
 }
 
@@ -64,6 +78,10 @@ TEST_F(MapCommand, JsonHoldsWallsAndGaps) {
   EXPECT_NEAR(map["walls"][0]["to_m"][1].get<double>(), 1.75, 1e-9);
   ASSERT_EQ(map["gaps"].size(), 1u);
   EXPECT_NEAR(map["gaps"][0]["width_m"].get<double>(), 1.0, 1e-9);
+  ASSERT_EQ(map["things"].size(), 2u);
+  EXPECT_EQ(map["things"][0]["kind"], "box");
+  EXPECT_EQ(map["things"][0]["front_m"][0], 4);
+  EXPECT_EQ(map["things"][0]["depth_m"], 0.4);
 }
 
 TEST_F(MapCommand, DrawsItIntoAFile) {
@@ -71,9 +89,10 @@ TEST_F(MapCommand, DrawsItIntoAFile) {
   EXPECT_EQ(Map({"--file", file_, "--svg", svg}).exit_code, 0);
   const std::string content = FileContent(svg);
   EXPECT_THAT(content, HasSubstr("<svg"));
-  for (const char* layer :
-       {"class=\"wall\"", "class=\"learned-wall\"", "class=\"learned-sigma\"", "class=\"gap\""})
+  for (const char* layer : {"class=\"wall\"", "class=\"learned-wall\"", "class=\"learned-sigma\"",
+                            "class=\"gap\"", "class=\"seen-thing\"", "class=\"seen-edge\""})
     EXPECT_THAT(content, HasSubstr(layer));
+  EXPECT_THAT(content, HasSubstr("0.60 x 0.40 m, 1.1 m high"));
   const auto refused = Map({"--file", file_, "--svg", (folder_ / "no" / "map.svg").string()});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("--svg: expected a file that can be written"));

@@ -182,6 +182,21 @@ TEST(ExplorationTest, AThingDoesNotCloseWhereTheBaseWasAndIsNoneWhereItDrives) {
   EXPECT_FALSE(dut.Knows({4.2, 0}));
 }
 
+TEST(ExplorationTest, WhatTheHeadSawIsKeptOffButDoesNotCloseWhereTheBaseWas) {
+  Exploration dut({}, kWidth_m, {});
+  for (double x = 0; x <= 3; x += 0.2) dut.NoteAt({x, 0, 0});
+  dut.Learn({}, {{"thing 1", {{1, 0.3, 0}, {0.2, 0.2}}}, {"thing 2", {{3.9, 0, 0}, {0.2, 0.3}}}});
+  EXPECT_FALSE(dut.Knows({1, 0.3}));
+  EXPECT_TRUE(dut.Knows({3.9, 0}));
+  EXPECT_EQ(dut.grid().At(Eigen::Vector2d(3.9, 0)), ExploredGrid::Cell::kClosed);
+  const auto obstacles = dut.ObstaclesFor({.target = {0, 3}, .goal = {0, 3}});
+  ASSERT_FALSE(obstacles.empty());
+  EXPECT_EQ(obstacles.back().name, "a thing that the head saw");
+  EXPECT_EQ(obstacles.back().shape.map_from_centre.x, 3.9);
+  dut.Learn({});
+  EXPECT_FALSE(dut.Knows({3.9, 0})) << "it is told of no more";
+}
+
 TEST(ExplorationTest, WhatWasHeardIsKnownWhereAThingOrAWallStands) {
   Exploration dut({}, kWidth_m, {});
   EXPECT_FALSE(dut.Knows({2, 1}));

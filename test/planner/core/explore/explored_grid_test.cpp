@@ -54,6 +54,12 @@ TEST(ExploredGridTest, AThingIsClosedAndHidesWhatIsBehindIt) {
   EXPECT_EQ(dut.At(Vector2d(-1.2, 0)), Cell::kFree);
 }
 
+TEST(ExploredGridTest, WhatTheHeadSawIsClosedLikewise) {
+  const ExploredGrid dut(kConfig, {{{0, 0}}, {}, {}, {{{0.9, 0, 0}, {0.15, 0.3}}}});
+  EXPECT_EQ(dut.At(Vector2d(0.9, 0)), Cell::kClosed);
+  EXPECT_EQ(dut.At(Vector2d(1.2, 0)), Cell::kUnknown);
+}
+
 TEST(ExploredGridTest, WhereTheBaseWasNothingIs) {
   const ExploredGrid dut(kConfig, {{{0, 0}, {1, 0}}, {1, 1, {WallAt(0.5, 0, 90, 2)}, {}}, {}});
   EXPECT_EQ(dut.At(Vector2d(0.75, 0.05)), Cell::kFree);

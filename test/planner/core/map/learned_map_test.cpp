@@ -115,6 +115,30 @@ TEST(LearnedMap, KeepsNoMoreThanItMay) {
   for (const LearnedWall& wall : dut.walls().walls) EXPECT_GE(wall.y_m, 20) << "what was seen last";
 }
 
+TEST(LearnedMap, AMapThatWasMadeAnewKeepsDoorsAndThings) {
+  LearnedMap dut({});
+  dut.Take(Seen(1, 1, WallAt(0, 0, 0, 3)));
+  LearnedDoor door;
+  door.seen_s = 5;
+  EXPECT_TRUE(dut.Take(door));
+  EXPECT_TRUE(dut.Take(BoxAt(2, 1, 0)));
+  EXPECT_FALSE(dut.Take(BoxAt(2, 1, 0)));
+  const int revision = dut.walls().revision;
+  LearnedWalls made;
+  made.walls = {WallAt(5, 0, 0, 3)};
+  dut.Replace(made);
+  EXPECT_EQ(dut.walls().walls[0].x_m, 5);
+  EXPECT_THAT(dut.walls().doors, SizeIs(1));
+  ASSERT_THAT(dut.walls().objects, SizeIs(1));
+  EXPECT_GT(dut.walls().revision, revision);
+  made.objects = {BoxAt(2.3, 1, 0)};
+  dut.Replace(made);
+  ASSERT_THAT(dut.walls().objects, SizeIs(1));
+  EXPECT_EQ(dut.walls().objects[0].x_m, 2.3) << "where the map has it";
+  dut.Reset();
+  EXPECT_THAT(dut.walls().objects, SizeIs(0));
+}
+
 /// Sightings that share the error of one pose, as all of one drive do, make the map no surer than that pose.
 TEST(LearnedMap, SharedErrorsDoNotAverageOut) {
   LearnedMap dut({});

@@ -15,7 +15,14 @@ using testing::SizeIs;
 std::vector<NamedObstacle> Of(const LearnedWall& wall) {
   LearnedWalls learned;
   learned.walls = {wall};
-  return ObstaclesOf(learned, ObstacleMap(ShippedPlan()));
+  return ObstaclesOf(learned, ObstacleMap(ShippedPlan()), ShippedPlan().doors);
+}
+
+std::vector<NamedObstacle> Of(const LearnedObject& object, std::vector<LearnedDoor> doors = {}) {
+  LearnedWalls learned;
+  learned.objects = {object};
+  learned.doors = std::move(doors);
+  return ObstaclesOf(learned, ObstacleMap(ShippedPlan()), ShippedPlan().doors);
 }
 
 TEST(ObstaclesOf, AWallThatIsNotOnThePlanIsOne) {
@@ -48,6 +55,78 @@ TEST(ObstaclesOf, WhatIsHardlyKnownIsNone) {
   const auto dut = Of(vague);
   ASSERT_THAT(dut, SizeIs(1));
   EXPECT_LT(dut[0].shape.half_m.x(), 0.65) << "its middle only";
+}
+
+TEST(ObstaclesOf, ABoxThatTheHeadSawIsOneWithItsSizeInItsName) {
+  const auto dut = Of(BoxAt(3, 2.4, 90));
+  ASSERT_THAT(dut, SizeIs(1));
+  EXPECT_EQ(dut[0].name, "thing 3, 0.60 x 0.40 m, seen by the head");
+  EXPECT_NEAR(dut[0].shape.map_from_centre.x, 3, 1e-9);
+  EXPECT_NEAR(dut[0].shape.map_from_centre.y, 2.6, 1e-9);
+  EXPECT_NEAR(dut[0].shape.half_m.x(), 0.2 + 0.02, 1e-9) << "larger by one sigma";
+  EXPECT_NEAR(dut[0].shape.half_m.y(), 0.3 + 0.03, 1e-9);
+}
+
+TEST(ObstaclesOf, AFaceIsFiveCentimetresDeepAndAnEdgeIsNothing) {
+  LearnedObject object = BoxAt(3, 2.4, 90);
+  object.kind = "face";
+  object.depth_m = 0;
+  const auto dut = Of(object);
+  ASSERT_THAT(dut, SizeIs(1));
+  EXPECT_EQ(dut[0].name, "thing 3, 0.60 m wide, seen by the head");
+  EXPECT_NEAR(dut[0].shape.map_from_centre.y, 2.425, 1e-9);
+  EXPECT_NEAR(dut[0].shape.half_m.x(), 0.025 + 0.02, 1e-9);
+  object.kind = "edge";
+  object.width_m = 0;
+  EXPECT_THAT(Of(object), IsEmpty());
+}
+
+TEST(ObstaclesOf, ThingsThatAreHardlyKnownOrNotInTheWayAreNone) {
+  const auto counts = [](const auto& change) {
+    LearnedObject object = BoxAt(3, 2.4, 90);
+    change(object);
+    return !Of(object).empty();
+  };
+  EXPECT_FALSE(counts([](LearnedObject& o) { o.looks = 1; }));
+  EXPECT_FALSE(counts([](LearnedObject& o) { o.sigma_across_m = 0.16; }));
+  EXPECT_FALSE(counts([](LearnedObject& o) { o.sigma_along_m = 0.16; }));
+  EXPECT_FALSE(counts([](LearnedObject& o) { o.bottom_m = 1.65, o.top_m = 1.9; })) << "a shelf on a wall";
+  EXPECT_FALSE(counts([](LearnedObject& o) { o.top_m = 0.02; })) << "the border of a carpet";
+  EXPECT_TRUE(counts([](LearnedObject& o) { o.bottom_m = 0.7; })) << "a table";
+}
+
+TEST(ObstaclesOf, AThingThatLiesOnThePlanIsThat) {
+  EXPECT_THAT(Of(BoxAt(3, 0.05, -90)), IsEmpty()) << "the south wall";
+  EXPECT_THAT(Of(BoxAt(3, 0.5, -90)), SizeIs(1)) << "a cupboard before it";
+  LearnedObject across = BoxAt(3, 0.4, 0);  // from y -0.6 to 1.4: its greater part is in the room
+  across.width_m = 2;
+  EXPECT_THAT(Of(across), SizeIs(1));
+}
+
+TEST(ObstaclesOf, NothingAtADoorOfThePlanClosesIt) {
+  const Pose2 door = ShippedPlan().doors[0].map_from_door();
+  const auto at = [&](const Pose2& in_door, const char* kind) {
+    const Pose2 there = door * in_door;
+    LearnedObject object = BoxAt(there.x, there.y, Degrees(there.yaw));
+    object.kind = kind;
+    object.width_m = 0.9;
+    return Of(object).size();
+  };
+  EXPECT_EQ(at({0, 0, 0}, "face"), 0u) << "a closed leaf";
+  EXPECT_EQ(at({-0.3, 0.6, 0}, "box"), 0u) << "a jamb";
+  EXPECT_EQ(at({0.55, -0.5, kPi / 2}, "face"), 0u) << "a leaf that stands open";
+  EXPECT_EQ(at({-0.55, 0.45, kPi / 2}, "face"), 0u) << "to the other side";
+  EXPECT_EQ(at({-1.6, 0, 0}, "box"), 1u) << "what stands before it is in the way";
+}
+
+TEST(ObstaclesOf, NorAtALearnedDoor) {
+  LearnedDoor door;
+  door.x_m = 3;
+  door.y_m = 2.4;
+  door.yaw_deg = 90;
+  EXPECT_THAT(Of(BoxAt(3, 2.4, 90), {door}), IsEmpty());
+  EXPECT_THAT(Of(BoxAt(3.6, 2.4, 90), {door}), IsEmpty()) << "its jamb";
+  EXPECT_THAT(Of(BoxAt(3, 0.8, 90), {door}), SizeIs(1));
 }
 
 }  // namespace

@@ -141,6 +141,23 @@ TEST(ExploreMissionTest, AHoldIsNotWaitedForForEver) {
   EXPECT_THAT(s.dut.state().text, HasSubstr("has held on its way for 12 s: the pose is stale"));
 }
 
+TEST(ExploreMissionTest, WhatTheHeadSawIsDrivenAround) {
+  Story s;
+  auto learned = std::make_shared<LearnedWalls>();
+  learned->objects = {BoxAt(2.5, 0.75, -90)};  // from the wall into the way along the middle
+  learned->objects[0].depth_m = 0.7;
+  s.dut.OnLearned(learned);
+  const Rectangle box = learned->objects[0].Footprint();
+  double least_m = 9;
+  ASSERT_TRUE(s.dut.Start(s.robot.now(), {kExplore}));
+  for (int i = 0; i < 1000 && s.robot.truth().x < 4; ++i) {
+    s.robot.Step();
+    least_m = std::min(least_m, Distance(Footprint{}.At(s.robot.truth()), box));
+  }
+  EXPECT_GE(s.robot.truth().x, 4) << s.dut.state().text;
+  EXPECT_GT(least_m, 0.05);
+}
+
 TEST(ExploreMissionTest, ASecondOrderBeginsAnew) {
   Story s;
   s.Run(200);

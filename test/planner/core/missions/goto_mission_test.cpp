@@ -116,11 +116,32 @@ TEST(GotoMissionTest, AWallThatTurnsUpAcrossThePathIsDrivenAround) {
   s.dut.OnLearned(learned);
   s.robot.RunFor(1);
   ASSERT_EQ(s.robot.paths.size(), 2u);
-  EXPECT_THAT(s.dut.state().text,
-              StartsWith("a wall that is not on the plan is in the way; another way: driving"));
+  EXPECT_THAT(s.dut.state().text, StartsWith("in the way: learned wall 1; another way: driving"));
   s.robot.RunFor(60);
   EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
   EXPECT_EQ(s.robot.paths.size(), 2u) << "the same walls again are no news";
+}
+
+TEST(GotoMissionTest, AThingThatTheHeadSawAcrossThePathIsDrivenAround) {
+  Story s;
+  s.Start({{5.0, 2.4, 0}});
+  s.robot.RunUntilX(1.5);
+  auto learned = std::make_shared<LearnedWalls>();
+  learned->objects = {BoxAt(3.2, 2.4, 0)};
+  learned->objects[0].looks = 1;
+  s.dut.OnLearned(learned);
+  s.robot.RunFor(1);
+  EXPECT_EQ(s.robot.paths.size(), 1u) << "one look is not enough";
+  learned = std::make_shared<LearnedWalls>(*learned);
+  learned->objects[0].looks = 2;
+  s.dut.OnLearned(learned);
+  s.robot.RunFor(1);
+  ASSERT_EQ(s.robot.paths.size(), 2u);
+  EXPECT_THAT(s.dut.state().text, StartsWith("in the way: thing 3, 0.60 x 0.40 m, seen by the head; another "
+                                             "way: driving"));
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+  EXPECT_EQ(s.robot.paths.size(), 2u);
 }
 
 TEST(GotoMissionTest, AWallThatLeavesNoWayEndsNothing) {

@@ -87,6 +87,21 @@ TEST(RoutePlannerTest, NoWallIsWhereTheBaseStands) {
   EXPECT_FALSE(dut.AreFree({3, 2.4, 0}, {{1, 2.4, 0}}));
 }
 
+TEST(RoutePlannerTest, AThingThatTheHeadSawIsPlannedAroundButNotWhereTheBaseStands) {
+  RoutePlanner dut = PlannerOf(ShippedPlan());
+  LearnedWalls learned;
+  learned.objects = {BoxAt(3, 2.4, 0)};
+  const Pose2 start{1, 2.4, 0};
+  dut.Learn(learned, start);
+  EXPECT_EQ(dut.InTheWay(start, {{5, 2.4, 0}}), "thing 3, 0.60 x 0.40 m, seen by the head");
+  const auto around = dut.Plan(start, {{5, 2.4, 0}});
+  ASSERT_TRUE(around) << around.reason();
+  EXPECT_EQ(dut.InTheWay(start, around->points), "");
+  EXPECT_THAT(dut.Plan(start, {{3, 2.4, 0}}).reason(), HasSubstr("0.00 m of thing 3"));
+  dut.Learn(learned, {2.8, 2.4, 0});
+  EXPECT_TRUE(dut.Plan({2.8, 2.4, 0}, {{5, 2.4, 0}}));
+}
+
 TEST(RoutePlannerTest, CupboardsAreInTheWay) {
   GroundPlan plan = ShippedPlan();
   CupboardPlan cupboard;

@@ -1,4 +1,4 @@
-#include "cli/report/map_picture.hpp"
+#include "cli/verbs/robot/map_picture.hpp"
 
 #include <fmt/format.h>
 
@@ -25,6 +25,11 @@ constexpr Layer kLearnedSigma{"learned-sigma",
 constexpr Layer kGap{"gap", "gap between learned walls", {.line = colours::kBelief, .width = 3, .dash = 8}};
 constexpr Layer kDoorOpen{"door-open", "door seen open", {.line = colours::kFix, .width = 3, .dash = 4}};
 constexpr Layer kDoorShut{"door-shut", "door seen closed or ajar", {.line = colours::kBelief, .width = 7}};
+constexpr Layer kSeen{"seen-thing",
+                      "thing that the head saw",
+                      {.line = colours::kThing, .width = 2, .fill = colours::kThing, .opacity = 0.25},
+                      Symbol::kArea};
+constexpr Layer kEdge{"seen-edge", "edge that the head saw", {.fill = colours::kThing}, Symbol::kDot};
 constexpr Layer kCorner{"corner", "corner of learned walls", {.fill = colours::kFix}, Symbol::kDot};
 
 Extent ExtentOfBoth(const GroundPlan& plan, const LearnedWalls& learned) {
@@ -40,6 +45,12 @@ Extent ExtentOfBoth(const GroundPlan& plan, const LearnedWalls& learned) {
   for (const LearnedDoor& door : learned.doors) {
     extent.low = extent.low.cwiseMin(Vector2d(door.x_m, door.y_m));
     extent.high = extent.high.cwiseMax(Vector2d(door.x_m, door.y_m));
+  }
+  for (const LearnedObject& object : learned.objects) {
+    for (const Vector2d& corner : object.Footprint().Corners()) {
+      extent.low = extent.low.cwiseMin(corner);
+      extent.high = extent.high.cwiseMax(corner);
+    }
   }
   const Vector2d around = Vector2d::Constant(kAround_m);
   return {extent.low - around, extent.high + around};
@@ -71,6 +82,16 @@ void DrawDoor(MapView& view, const LearnedDoor& door, const GroundPlan& plan) {
   view.Label(at * Vector2d(0.3, 0), NameOf(door, plan) + ": " + door.state, kSmallFont, colours::kInk, 14);
 }
 
+/// What it covers of the floor; an edge is a dot.
+void DrawObject(MapView& view, const LearnedObject& object) {
+  const Rectangle footprint = object.Footprint();
+  if (object.kind == "edge") return view.Dot(kEdge, footprint.map_from_centre.translation(), 6);
+  const auto corners = footprint.Corners();
+  view.Area(kSeen, {corners.begin(), corners.end()});
+  view.Label(footprint.map_from_centre.translation(),
+             fmt::format("{}, {:.1f} m high", SizeOf(object), object.top_m), kSmallFont, colours::kThing, 14);
+}
+
 }  // namespace
 
 Drawing DrawMap(const GroundPlan& plan, const LearnedWalls& learned) {
@@ -84,6 +105,7 @@ Drawing DrawMap(const GroundPlan& plan, const LearnedWalls& learned) {
   for (const LearnedWall& wall : learned.walls) DrawWall(view, wall);
   for (const WallGap& gap : GapsOf(learned)) DrawGap(view, gap);
   for (const LearnedDoor& door : learned.doors) DrawDoor(view, door, plan);
+  for (const LearnedObject& object : learned.objects) DrawObject(view, object);
   for (const WallCorner& corner : CornersOf(learned)) view.Dot(kCorner, {corner.x_m, corner.y_m}, 7);
   view.SetLabels();
   const double top = window.bottom() + kMapMargin;
