@@ -12,6 +12,7 @@
 
 namespace priamos::head {
 
+/// What stands there, as far as its edges tell.
 enum class ObjectKind {
   kEdge,  ///< an upright edge that belongs to no face
   kFace,  ///< an upright rectangle
