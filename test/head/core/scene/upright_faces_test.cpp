@@ -79,6 +79,16 @@ TEST(UprightFaces, AnOpeningThroughWhichTheRoomIsSeenIsNone) {
   EXPECT_TRUE(FacesOf(scene).empty());
 }
 
+TEST(UprightFaces, WhatIsLevelBehindADoorwayDoesNotCloseIt) {
+  DrawnScene scene;
+  for (const double y : {0.4, -0.4}) {  // jambs in two pieces
+    scene.Upright({3, y}, 0.5, 1.0);
+    scene.Upright({3, y}, 1.04, 1.9);
+  }
+  scene.Level({3, 0.4}, {3, -0.4}, 1.0);  // a skirting far behind looks like this
+  EXPECT_TRUE(FacesOf(scene).empty());
+}
+
 TEST(UprightFaces, APictureOnAFaceIsPartOfIt) {
   DrawnScene scene;
   scene.Face({3, 0.5}, {3, -0.5}, 0.5, 1.6);
