@@ -111,5 +111,48 @@ TEST_F(TestGroups, EveryCaseOfAProgramIsInOneGroup) {
   EXPECT_THAT(RunShell("cat " + script).text, ContainsRegex("add_test.sample_01 .*reports/sample_01.xml"));
 }
 
+/// In place of CTest: two groups and two cases, of which one group and one case fail, and only the case
+/// passes alone.
+constexpr const char* kCtest = R"(#!/bin/sh
+echo "groups: $PRIAMOS_TEST_GROUPS; alone: $PRIAMOS_FAILED_ALONE"
+case "$*" in *-R*) echo '<testsuite tests="1" failures="0" disabled="0" skipped="0">' >build/report.xml; exit 0 ;; esac
+mkdir -p build/test/groups build/Testing/Temporary
+group() { echo "<testsuite tests=\"$2\" failures=\"$3\" disabled=\"0\" skipped=\"$4\">"; cat; } >"build/test/groups/$1"
+case "$*" in
+  *--rerun-failed*)
+    group a_01.xml.again 2 1 0 </dev/null
+    echo '<testsuite tests="2" failures="1" disabled="0" skipped="0">' >build/again.xml ;;
+  *)
+    group a_01.xml 40 2 1 <<END
+<testcase name="A.good" status="passed" time="0.1"></testcase>
+<testcase name="A.bad" status="failed" time="0.1"><failure message=""/></testcase>
+<testcase name="All/A.worse/3" status="failed" time="0.1"><failure message="SIGSEGV"/></testcase>
+END
+    group a_02.xml 10 0 0 </dev/null
+    printf '1:a_01\n2:S.two\n' >build/Testing/Temporary/LastTestsFailed.log
+    echo '<testsuite tests="4" failures="2" disabled="0" skipped="0">' >build/report.xml ;;
+esac
+exit 8
+)";
+
+TEST_F(TestGroups, TheClosingLineCountsCasesAndThoseThatFailAreNamed) {
+  const auto clone = folder_ / "clone";
+  std::filesystem::create_directories(clone / "build");
+  std::filesystem::copy(PRIAMOS_SOURCE_DIR "/scripts", clone / "scripts");
+  std::ofstream(clone / "scripts/build") << "#!/bin/sh\n";
+  std::ofstream(folder_ / "ctest") << kCtest;
+  const std::string run =
+      "cd '" + clone.string() + "' && chmod +x ../ctest && PATH=\"$PWD/..:$PATH\" scripts/test";
+  const auto all = RunShell(run);
+  EXPECT_EQ(all.exit_code, 8) << all.text;
+  EXPECT_THAT(all.text, HasSubstr("groups: 1; alone: \n"));
+  EXPECT_THAT(all.text,
+              HasSubstr("test: once more, alone: A.bad All/A.worse/3 S.two\ngroups: 1; alone: 1\n"));
+  EXPECT_THAT(all.text, HasSubstr("\n50 passed, 1 failed, 1 skipped\n"));
+  const auto some = RunShell(run + " -R A.bad");
+  EXPECT_EQ(some.exit_code, 0) << some.text;
+  EXPECT_THAT(some.text, HasSubstr("groups: ; alone: \n1 passed, 0 failed, 0 skipped\n"));
+}
+
 }  // namespace
 }  // namespace priamos

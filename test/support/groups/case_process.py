@@ -34,8 +34,12 @@ class CaseProcess:
                 [program, "--gtest_filter=" + ":".join(cases), f"--gtest_output=xml:{report}", "--gtest_color=no",
                  "--gtest_brief=0"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                 env=own_environment(), process_group=0)
-            with process.stdout:
-                code = self._follow(process)
+            try:
+                with process.stdout:
+                    code = self._follow(process)
+            except BaseException:  # who ends this ends the program as well
+                end_group(process)
+                raise
             self._judge(code, report, cases)
 
     def text_of(self, case):

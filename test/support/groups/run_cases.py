@@ -8,6 +8,7 @@ report of that is REPORT.again.
 """
 import os
 import pathlib
+import signal
 import sys
 import xml.etree.ElementTree
 from xml.sax.saxutils import quoteattr
@@ -104,12 +105,13 @@ def show(outcomes):
 
 
 def main(program, report, limit_s, *cases):
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     report, limit_s = pathlib.Path(report), float(limit_s)
     if os.environ.get("PRIAMOS_FAILED_ALONE"):
         outcomes = run_alone(program, limit_s, failed_in(report, cases))
         report = report.with_name(report.name + ".again")
     else:
-        os.nice(10)  # what keeps real time runs beside it
+        os.nice(5)  # what keeps real time runs beside it
         outcomes = run_together(program, limit_s, cases)
     write_report(report, outcomes)
     return show(outcomes)
