@@ -33,9 +33,13 @@ head::LandmarkFix Fixer::Find(const LandmarkLook& look, const head::LandmarkFixO
                               const std::array<head::CameraModel, 2>& cameras) {
   const double start = CpuSeconds();
   for (int c = 0; c < 2; ++c) edge_operator.Extract(look.images[c], edges[c]);
+  const bool third = with_third && !look.third.empty();
+  if (third) edge_operator.Extract(look.third, edges[head::kThird]);
   edge_seconds = CpuSeconds() - start;
-  const head::LandmarkFix fix = head::LandmarkFinder(options).Find(
-      model, {look.believed, look.belief}, {MakeView(cameras[0], edges[0]), MakeView(cameras[1], edges[1])});
+  std::vector<head::CameraView> views{MakeView(cameras[0], edges[0]), MakeView(cameras[1], edges[1])};
+  if (third) views.push_back(MakeView(look.third_calibrated, edges[head::kThird]));
+  const head::LandmarkFix fix =
+      head::LandmarkFinder(options).Find(model, {look.believed, look.belief}, views);
   seconds = CpuSeconds() - start;
   return fix;
 }

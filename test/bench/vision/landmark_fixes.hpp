@@ -24,7 +24,8 @@ head::LandmarkFixOptions Told(const LandmarkLook& look);
 /// From the images to the fix, and the time it takes.
 struct Fixer {
   head::EdgeOperator edge_operator{head::EdgeOptions(head::VisionConfig())};  ///< as priamos-head has it
-  std::array<head::EdgeImage, 2> edges;
+  bool with_third = false;  ///< the third camera takes part where the look has its picture
+  std::array<head::EdgeImage, 3> edges;
   double seconds = 0, edge_seconds = 0;  ///< all of it; the edge operator's part
 
   head::LandmarkFix Find(const LandmarkLook& look, const head::LandmarkFixOptions& options,

@@ -117,12 +117,19 @@ LandmarkLook TakeLook(const LookStage& stage, const CalibratedHead& head, const 
   const world::Viewpoint opening{Integrate(map_from_base, twist, -exposure.exposure_s / 2), axes},
       closing{Integrate(map_from_base, twist, exposure.exposure_s / 2), axes};
   Rng noise = Rng::Stream(seed, "noise " + NameOf(side, stage.visit));
+  const auto expose = [&](int camera) {
+    const GreyImage image =
+        renderer.Expose(static_cast<world::Camera>(camera), opening, closing, exposure, noise);
+    return cv::Mat(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data())).clone();
+  };
   for (int c = 0; c < 2; ++c) {
-    const GreyImage image = renderer.Expose(static_cast<world::Camera>(c), opening, closing, exposure, noise);
-    look.images[c] =
-        cv::Mat(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data())).clone();
+    look.images[c] = expose(c);
     look.calibrated[c] = *head.model.CameraAt(setting, c);
     look.exact[c] = ExactCamera(head.build, c, axes);
+  }
+  if (const auto third = head.model.CameraAt(setting, head::kThird)) {
+    look.third = expose(head::kThird);
+    look.third_calibrated = *third;
   }
   return look;
 }

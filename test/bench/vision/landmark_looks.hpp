@@ -31,6 +31,8 @@ CalibratedHead CalibrateSpecimenWholly(std::uint64_t seed);
 struct LandmarkLook {
   std::array<cv::Mat, 2> images;
   std::array<head::CameraModel, 2> calibrated, exact;
+  cv::Mat third;  ///< of the third camera
+  head::CameraModel third_calibrated;
   head::HeadSetting setting;                         ///< of the motors
   Pose2 truth, believed;                             ///< base_from_landmark
   Eigen::Matrix3d belief = Eigen::Matrix3d::Zero();  ///< covariance of `believed`

@@ -66,7 +66,7 @@ std::vector<int> VisibleEdges(const LandmarkLook& look) {
 
 /// How far the edges of an image really lie beside a model without errors in exact cameras: one whole edge at
 /// both of its places, all that were found, right ones or not.
-void AddEdgeNoise(const LandmarkLook& look, const std::array<head::EdgeImage, 2>& edges,
+void AddEdgeNoise(const LandmarkLook& look, const std::array<head::EdgeImage, 3>& edges,
                   std::vector<double>& distances) {
   const std::array<head::CameraView, 2> views{head::MakeView(look.exact[0], edges[0]),
                                               head::MakeView(look.exact[1], edges[1])};
