@@ -13,9 +13,9 @@
 namespace priamos::bench {
 namespace {
 
-constexpr double kClear_m = 0.55;    // of the robot's middle from the walls
-constexpr int kAttempts = 12;        // to stand where a door is to be found
-constexpr int kZoomStep = 100;       // 840 px: nearly the widest that was calibrated
+constexpr double kClear_m = 0.55;  // of the robot's middle from the walls
+constexpr int kAttempts = 12;      // to stand where a door is to be found
+constexpr int kZoomStep = 100;     // 840 px: nearly the widest that was calibrated
 
 /// The face of a door that is turned to the robot.
 struct Face {

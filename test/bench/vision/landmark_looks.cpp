@@ -120,7 +120,8 @@ LandmarkLook TakeLook(const LookStage& stage, const CalibratedHead& head, const 
   const auto expose = [&](int camera) {
     const GreyImage image =
         renderer.Expose(static_cast<world::Camera>(camera), opening, closing, exposure, noise);
-    return cv::Mat(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data())).clone();
+    return cv::Mat(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data()))
+        .clone();
   };
   for (int c = 0; c < 2; ++c) {
     look.images[c] = expose(c);

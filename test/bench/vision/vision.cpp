@@ -2,8 +2,8 @@
 // images in the same run.
 //   bench_vision [--quick] [--photo FILE]... [--pair LEFT RIGHT CAMERA CAMERA]... [--only PART]...
 // PART: edges, stereo, photometry, order, door, lens, rooms, repeated, cupboard, budget, deceptions, leaves,
-// bodies, castle, detection, corridor, laser, greys, scene. Prints one line per figure with its bound; exit 1 if one
-// is missed.
+// bodies, castle, detection, corridor, laser, greys, scene. Prints one line per figure with its bound; exit 1
+// if one is missed.
 #include <CLI/CLI.hpp>
 #include <opencv2/core/utility.hpp>
 

@@ -13,8 +13,7 @@ DoorTrack AsTrack(const DoorSighting& sighting, const Pose2& map_from_base, Time
                   const PlaceOptions& options) {
   DoorTrack track;
   track.seen = exposure;
-  track.place =
-      PlaceOf(sighting.door.base_from_door, sighting.door.covariance, map_from_base, options);
+  track.place = PlaceOf(sighting.door.base_from_door, sighting.door.covariance, map_from_base, options);
   track.width_m = sighting.door.width_m;
   track.state = sighting.state;
   track.log_odds = sighting.door.log_odds;

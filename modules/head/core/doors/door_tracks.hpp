@@ -33,7 +33,7 @@ struct DoorTrack {
 
 /// What is the same door, and when one is believed.
 struct DoorTrackOptions {
-  double same_m = 0.65;       ///< sightings nearer to each other are one door
+  double same_m = 0.65;  ///< sightings nearer to each other are one door
   PlaceOptions place;
   double max_sigma_m = 0.15;  ///< a sighting that claims more is of no use
   int min_looks = 2;          ///< that showed a door before it is told

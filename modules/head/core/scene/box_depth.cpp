@@ -55,7 +55,8 @@ std::optional<double> DepthBehind(const StereoViews& views, const Pose2& base_fr
   const Ground left(views[0], base_from_front, top_m), right(views[1], base_from_front, top_m);
   std::optional<double> best;
   for (const double corner_y : {-width_m / 2, width_m / 2}) {
-    const double a = LengthIn(views[0], left, corner_y, options), b = LengthIn(views[1], right, corner_y, options);
+    const double a = LengthIn(views[0], left, corner_y, options),
+                 b = LengthIn(views[1], right, corner_y, options);
     const double depth = (a + b) / 2;
     if (depth < options.min_depth_m || depth > options.max_depth_m) continue;
     if (std::abs(a - b) > options.same_m + options.same_share * depth) continue;

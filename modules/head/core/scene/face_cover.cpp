@@ -18,7 +18,8 @@ struct SeenEdge {
 };
 
 /// nullopt: too little of it lies in the picture.
-std::optional<SeenEdge> SeeIn(const CameraView& view, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+std::optional<SeenEdge> SeeIn(const CameraView& view, const Eigen::Vector3d& from,
+                              const Eigen::Vector3d& to) {
   const auto edge = ProjectEdge(*view.camera, view.size, from, to);
   if (!edge || edge->length_px() < kShortest_px) return std::nullopt;
   return SeenEdge{CoverOfAnyContrast(view, ExpectedLine(edge->p, edge->q), kBeside_px), edge->length_px()};
@@ -35,8 +36,8 @@ double CoverInBoth(const StereoViews& views, const Eigen::Vector3d& from, const 
   return least;
 }
 
-bool EndsInBoth(const StereoViews& views, const Eigen::Vector3d& from, const Eigen::Vector3d& to, EndRule rule,
-                const EndTolerance& tolerance) {
+bool EndsInBoth(const StereoViews& views, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                EndRule rule, const EndTolerance& tolerance) {
   return std::all_of(views.begin(), views.end(), [&](const CameraView& view) {
     const auto seen = SeeIn(view, from, to);
     if (!seen || seen->cover.line < 0) return false;

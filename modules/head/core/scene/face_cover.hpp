@@ -13,8 +13,8 @@ inline bool IsLevel(const ViewLine& line) {
   return std::abs(line.plane.z()) > kUpright;
 }
 
-/// The smaller share that both images show of an edge of space, of its part that lies in the picture, whatever
-/// its contrast along it; 0 where less than 16 px of it are in a picture.
+/// The smaller share that both images show of an edge of space, of its part that lies in the picture,
+/// whatever its contrast along it; 0 where less than 16 px of it are in a picture.
 double CoverInBoth(const StereoViews& views, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 /// How lines end beside the ends of an edge that they cover.
@@ -29,7 +29,7 @@ struct EndTolerance {
 };
 
 /// Whether, in both images, the lines that cover an edge end as the rule says.
-bool EndsInBoth(const StereoViews& views, const Eigen::Vector3d& from, const Eigen::Vector3d& to, EndRule rule,
-                const EndTolerance& tolerance);
+bool EndsInBoth(const StereoViews& views, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                EndRule rule, const EndTolerance& tolerance);
 
 }  // namespace priamos::head

@@ -7,8 +7,9 @@
 namespace priamos::head {
 namespace {
 
-constexpr double kBorder_m = 0.03;   ///< edges nearer to the border of the face may belong to it
-constexpr double kLeastShare = 0.2;  ///< of the face's height in the image, seen behind it: less is an outlier
+constexpr double kBorder_m = 0.03;  ///< edges nearer to the border of the face may belong to it
+constexpr double kLeastShare =
+    0.2;  ///< of the face's height in the image, seen behind it: less is an outlier
 
 /// A face as a camera sees it.
 class SeenFace {
@@ -43,10 +44,9 @@ class SeenFace {
 
 /// Standard deviation of the middle of an edge along a direction of the floor.
 double SigmaAlong(const SpaceEdge& edge, const Eigen::Vector2d& direction) {
-  const Eigen::Matrix2d covariance =
-      (edge.covariance.block<2, 2>(0, 0) + edge.covariance.block<2, 2>(3, 3) + edge.covariance.block<2, 2>(0, 3) +
-       edge.covariance.block<2, 2>(3, 0)) /
-      4;
+  const Eigen::Matrix2d covariance = (edge.covariance.block<2, 2>(0, 0) + edge.covariance.block<2, 2>(3, 3) +
+                                      edge.covariance.block<2, 2>(0, 3) + edge.covariance.block<2, 2>(3, 0)) /
+                                     4;
   return std::sqrt(std::max(0.0, direction.dot(covariance * direction)));
 }
 

@@ -17,8 +17,8 @@ struct FacePlane {
       : from(a), to(b), bottom_m(bottom), top_m(top) {}
 };
 
-/// Whether edges of space are seen through it: those that appear within it and lie more than `behind_m`, and 3
-/// sigmas, behind its plane outweigh those on the plane.
+/// Whether edges of space are seen through it: those that appear within it and lie more than `behind_m`, and
+/// 3 sigmas, behind its plane outweigh those on the plane.
 bool IsSeenThrough(const FacePlane& face, const CameraView& left, std::span<const StereoMatch> matches,
                    double behind_m);
 

@@ -56,7 +56,8 @@ class LevelEndSearch {
   }
 
   void Add(const UprightEdge& edge) {
-    const Eigen::Vector3d low(edge.at.x(), edge.at.y(), edge.bottom_m), high(edge.at.x(), edge.at.y(), edge.top_m);
+    const Eigen::Vector3d low(edge.at.x(), edge.at.y(), edge.bottom_m),
+        high(edge.at.x(), edge.at.y(), edge.top_m);
     const bool known = std::any_of(uprights_.begin(), uprights_.end(), [&](const UprightEdge& other) {
       return AreOne(other, edge, same_) && other.top_m > edge.top_m - same_.gap_m;
     });
@@ -72,8 +73,8 @@ class LevelEndSearch {
 
 }  // namespace
 
-void AddUprightsAtLevelEnds(const StereoViews& views, const UprightOptions& same, const LevelEndOptions& options,
-                            std::vector<UprightEdge>& uprights) {
+void AddUprightsAtLevelEnds(const StereoViews& views, const UprightOptions& same,
+                            const LevelEndOptions& options, std::vector<UprightEdge>& uprights) {
   LevelEndSearch(views, same, options, uprights).Run();
 }
 

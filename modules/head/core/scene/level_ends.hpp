@@ -18,7 +18,7 @@ struct LevelEndOptions {
 /// A level edge that begins at the upper end of an upright edge leads to another one: its height is that of
 /// the first, so where it ends in one image is a place in space. Where both images show an upright edge below
 /// that place it is one of `uprights` from now on, as uncertain as the first one, and more.
-void AddUprightsAtLevelEnds(const StereoViews& views, const UprightOptions& same, const LevelEndOptions& options,
-                            std::vector<UprightEdge>& uprights);
+void AddUprightsAtLevelEnds(const StereoViews& views, const UprightOptions& same,
+                            const LevelEndOptions& options, std::vector<UprightEdge>& uprights);
 
 }  // namespace priamos::head

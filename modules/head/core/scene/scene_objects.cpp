@@ -51,7 +51,8 @@ class Grouping {
     for (const bool right_of_a : {true, false}) {
       const Eigen::Vector2d at_a = right_of_a ? To(a) : From(a), at_b = right_of_a ? From(b) : To(b);
       if ((at_a - at_b).norm() > options_.corner_m) continue;
-      return Corner{(at_a + at_b) / 2, (right_of_a ? From(a) : To(a)) - at_a, (right_of_a ? To(b) : From(b)) - at_b};
+      return Corner{(at_a + at_b) / 2, (right_of_a ? From(a) : To(a)) - at_a,
+                    (right_of_a ? To(b) : From(b)) - at_b};
     }
     return std::nullopt;
   }
@@ -68,12 +69,14 @@ class Grouping {
 
   SceneObject AsObject(const UprightFace& face) const {
     SceneObject object;
-    const Eigen::Vector2d along = (To(face) - From(face)) / face.width_m, middle = (From(face) + To(face)) / 2;
+    const Eigen::Vector2d along = (To(face) - From(face)) / face.width_m,
+                          middle = (From(face) + To(face)) / 2;
     Eigen::Vector2d away(-along.y(), along.x());
     if (away.dot(middle - eye_) < 0) away = -away;
     object.base_from_front = {middle.x(), middle.y(), std::atan2(away.y(), away.x())};
     // The calibration's error is common to both edges: their mean is no better than one of them.
-    object.covariance = (uprights_[face.left].covariance + uprights_[face.right].covariance) / 2 + FrameError();
+    object.covariance =
+        (uprights_[face.left].covariance + uprights_[face.right].covariance) / 2 + FrameError();
     object.sigma_yaw_rad = SigmaYaw(face);
     object.width_m = face.width_m;
     object.bottom_m = face.bottom_m;
@@ -87,7 +90,8 @@ class Grouping {
 
   /// A front whose top is seen from above is that of a box.
   SceneObject WithDepth(SceneObject object) const {
-    const auto depth = DepthBehind(views_, object.base_from_front, object.width_m, object.top_m, options_.depth);
+    const auto depth =
+        DepthBehind(views_, object.base_from_front, object.width_m, object.top_m, options_.depth);
     if (!depth) return object;
     object.kind = ObjectKind::kBox;
     object.depth_m = *depth;

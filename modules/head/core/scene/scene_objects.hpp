@@ -37,11 +37,11 @@ struct SceneOptions {
   LevelEndOptions level_ends;
   FaceOptions faces;
   DepthOptions depth;
-  double square_rad = 0.2;      ///< faces of a box are square to each other within this and 3 sigmas
-  double corner_m = 0.04;       ///< ends of two faces that are nearer meet
-  double same_top_m = 0.05;     ///< largest difference between the upper edges of a box's faces
-  double min_edge_m = 0.3;      ///< height of an edge that stands alone
-  double frame_sigma_m = 0.003; ///< error of the calibrated base frame, and of arrises that are not sharp
+  double square_rad = 0.2;       ///< faces of a box are square to each other within this and 3 sigmas
+  double corner_m = 0.04;        ///< ends of two faces that are nearer meet
+  double same_top_m = 0.05;      ///< largest difference between the upper edges of a box's faces
+  double min_edge_m = 0.3;       ///< height of an edge that stands alone
+  double frame_sigma_m = 0.003;  ///< error of the calibrated base frame, and of arrises that are not sharp
 };
 
 /// Puts together what stands before the head (the paper's reconstruction of the scene): edges of space from

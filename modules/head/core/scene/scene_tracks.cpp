@@ -51,8 +51,8 @@ std::vector<Tellable> SceneTracks::Tellables(Time now) const {
   std::vector<Tellable> objects;
   for (const SceneTrack& track : tracks_)
     if (IsBelieved(track) && Seconds(now - track.seen) <= options_.told_for_s)
-      objects.push_back({track.id, track.place.map_from_thing.translation(), static_cast<int>(track.object.kind),
-                         IsEdge(track) ? 0 : 1});
+      objects.push_back({track.id, track.place.map_from_thing.translation(),
+                         static_cast<int>(track.object.kind), IsEdge(track) ? 0 : 1});
   return objects;
 }
 

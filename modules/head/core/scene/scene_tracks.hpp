@@ -13,24 +13,24 @@ namespace priamos::head {
 /// Something that stands on the floor, as all looks that showed it put it together.
 struct SceneTrack {
   int id = 0;
-  Time seen{};               ///< exposure of the newest of them
-  TrackedPlace place;        ///< middle of its front; x square to it, away from where it was seen
-  SceneObject object;        ///< kind, measures and sigma of its yaw; its place means nothing
+  Time seen{};         ///< exposure of the newest of them
+  TrackedPlace place;  ///< middle of its front; x square to it, away from where it was seen
+  SceneObject object;  ///< kind, measures and sigma of its yaw; its place means nothing
   int looks = 0;
-  Pose2 map_from_first_base; ///< from where it was seen first
+  Pose2 map_from_first_base;  ///< from where it was seen first
 };
 
 /// What is the same object, and when one is believed.
 struct SceneTrackOptions {
-  double same_m = 0.25;          ///< fronts whose middles are nearer may be one ...
-  double same_yaw_rad = 0.5;     ///< ... if they are turned against each other by less
-  double same_edge_m = 0.1;      ///< edges that are nearer are one, or part of a front
+  double same_m = 0.25;       ///< fronts whose middles are nearer may be one ...
+  double same_yaw_rad = 0.5;  ///< ... if they are turned against each other by less
+  double same_edge_m = 0.1;   ///< edges that are nearer are one, or part of a front
   PlaceOptions place;
-  double max_sigma_m = 0.15;     ///< an object that claims more is of no use
-  int min_looks = 2;             ///< that showed it before it is told ...
-  double min_driven_m = 0.1;     ///< ... from places that are so far apart: the same pair errs in the same way
-  double told_for_s = 600;       ///< what was not seen for longest is not told again
-  int most = 64;                 ///< of more, that goes which was not seen for longest
+  double max_sigma_m = 0.15;  ///< an object that claims more is of no use
+  int min_looks = 2;          ///< that showed it before it is told ...
+  double min_driven_m = 0.1;  ///< ... from places that are so far apart: the same pair errs in the same way
+  double told_for_s = 600;    ///< what was not seen for longest is not told again
+  int most = 64;              ///< of more, that goes which was not seen for longest
 };
 
 /// What stands on the floor, map frame.

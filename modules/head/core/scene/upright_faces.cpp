@@ -71,14 +71,16 @@ class FaceSearch {
 
   /// Upright edges end at the top, or are seen in part only; then the level one must end where they stand.
   bool IsTop(const UprightEdge& a, const UprightEdge& b, double low, double z) const {
-    if (z - low < options_.min_height_m || a.top_m > z + Near_m(a, z) || b.top_m > z + Near_m(b, z)) return false;
+    if (z - low < options_.min_height_m || a.top_m > z + Near_m(a, z) || b.top_m > z + Near_m(b, z))
+      return false;
     if (GoesOn(a, z) || GoesOn(b, z)) return false;
     const bool joins = Joins(a, b, a.top_m, b.top_m, z);
-    return EndsInBoth(views_, Above(a, z), Above(b, z), joins ? EndRule::kReach : EndRule::kStop, options_.ends);
+    return EndsInBoth(views_, Above(a, z), Above(b, z), joins ? EndRule::kReach : EndRule::kStop,
+                      options_.ends);
   }
 
-  /// Whether both images show an upright edge above a height as well: what is level behind an opening seems to
-  /// end at its jambs, and they go on.
+  /// Whether both images show an upright edge above a height as well: what is level behind an opening seems
+  /// to end at its jambs, and they go on.
   bool GoesOn(const UprightEdge& edge, double z) const {
     const double from = z + options_.beyond_m / 5, to = z + options_.beyond_m;
     return CoverInBoth(views_, Above(edge, from), Above(edge, to)) > options_.most_beyond;
@@ -115,7 +117,8 @@ class FaceSearch {
 bool IsWithin(const UprightFace& inner, const UprightFace& outer, std::span<const UprightEdge> uprights,
               const FaceOptions& options) {
   const Eigen::Vector2d origin = uprights[outer.left].at;
-  const Eigen::Vector2d along = (uprights[outer.right].at - origin) / outer.width_m, across(-along.y(), along.x());
+  const Eigen::Vector2d along = (uprights[outer.right].at - origin) / outer.width_m,
+                        across(-along.y(), along.x());
   for (const int end : {inner.left, inner.right}) {
     const Eigen::Vector2d off = uprights[end].at - origin;
     const double sigma = std::sqrt(across.dot(uprights[end].covariance * across));

@@ -7,8 +7,8 @@
 
 namespace priamos::head {
 
-/// The plane of sight of an image line, cut at a height: for an edge that is level there, the line on which it
-/// lies in the floor plan; an upright edge lies on it at any height.
+/// The plane of sight of an image line, cut at a height: for an edge that is level there, the line on which
+/// it lies in the floor plan; an upright edge lies on it at any height.
 struct PlanLine {
   Eigen::Vector2d normal;
   double offset = 0;  ///< normal.dot(at) + offset = 0

@@ -44,8 +44,8 @@ using StereoViews = std::array<CameraView, 2>;
 /// are straight. Keeps references to both arguments.
 CameraView MakeView(const CameraModel& camera, const EdgeImage& edges);
 
-/// Height above the floor at which the line passes the vertical at `at` (x, y) of the base frame [m]; large or
-/// infinite for a line that is upright itself.
+/// Height above the floor at which the line passes the vertical at `at` (x, y) of the base frame [m]; large
+/// or infinite for a line that is upright itself.
 double HeightOn(const ViewLine& line, const Eigen::Vector2d& at);
 
 }  // namespace priamos::head

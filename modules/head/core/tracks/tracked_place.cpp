@@ -15,8 +15,8 @@ TrackedPlace PlaceOf(const Pose2& base_from_thing, const Eigen::Matrix2d& covari
   const Eigen::Matrix2d turn = map_from_base.rotation();
   TrackedPlace place;
   place.map_from_thing = map_from_base * base_from_thing;
-  place.covariance = turn * covariance * turn.transpose() +
-                     options.drift_m * options.drift_m * Eigen::Matrix2d::Identity();
+  place.covariance =
+      turn * covariance * turn.transpose() + options.drift_m * options.drift_m * Eigen::Matrix2d::Identity();
   place.single = place.covariance;
   place.map_from_base = map_from_base;
   return place;

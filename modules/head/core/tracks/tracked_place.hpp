@@ -30,8 +30,9 @@ TrackedPlace PlaceOf(const Pose2& base_from_thing, const Eigen::Matrix2d& covari
 
 /// Weighs the place that a look tells against the one of all before; one that contradicts them takes their
 /// place. Returns the weight of the new one, 0 to 1, for what else is to be averaged. Looks are taken for
-/// independent but for the drift of the pose between them; an error that all share, as that of the calibration,
-/// is in the covariance of each and stays: fused ones are never better than half of the best single one.
+/// independent but for the drift of the pose between them; an error that all share, as that of the
+/// calibration, is in the covariance of each and stays: fused ones are never better than half of the best
+/// single one.
 double Fuse(const TrackedPlace& seen, const PlaceOptions& options, TrackedPlace& place);
 
 }  // namespace priamos::head

@@ -17,8 +17,8 @@
 namespace priamos::bench {
 namespace {
 
-constexpr int kZoomStep = 100;           // nearly the widest that was calibrated
-constexpr double kSeenShare = 0.85;      // of an edge, to be found
+constexpr int kZoomStep = 100;       // nearly the widest that was calibrated
+constexpr double kSeenShare = 0.85;  // of an edge, to be found
 constexpr double kFarthest_m = 4.0, kLeastSquare = 0.35;
 constexpr const char* kMaterials[] = {"cardboard", "furniture", "cupboard"};
 
@@ -84,7 +84,8 @@ TrueFront FrontOf(const world::BoxPlan& box, const Eyes& eyes) {
     front.right = b;
     front.depth_m = (i % 2 == 0 ? outline.half_m.y() : outline.half_m.x()) * 2;
   }
-  front.is_to_be_found = best > kLeastSquare && (front.middle() - eye).norm() < kFarthest_m && IsToBeFound(front, eyes);
+  front.is_to_be_found =
+      best > kLeastSquare && (front.middle() - eye).norm() < kFarthest_m && IsToBeFound(front, eyes);
   return front;
 }
 

@@ -35,8 +35,8 @@ struct SceneLook {
   Eyes eyes() const { return {exact, *scene, map_from_base, 5}; }
 };
 
-/// Takes pictures in made-up rooms and floors, 2.0 to 3.5 m before their door, of up to three boxes of any size
-/// and direction that stand 1.2 to 4 m before the robot, beside what the generator strewed there.
+/// Takes pictures in made-up rooms and floors, 2.0 to 3.5 m before their door, of up to three boxes of any
+/// size and direction that stand 1.2 to 4 m before the robot, beside what the generator strewed there.
 class ScenePhotographer {
  public:
   ScenePhotographer();

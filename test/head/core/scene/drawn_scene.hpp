@@ -12,10 +12,12 @@
 
 namespace priamos::test {
 
-/// What a perfect operator would see of faces and boxes, in both pictures of a level head 1.2 m above the floor.
+/// What a perfect operator would see of faces and boxes, in both pictures of a level head 1.2 m above the
+/// floor.
 class DrawnScene {
  public:
-  /// An edge of space, as far as each picture shows it; each has other grey values, so that it is like no other.
+  /// An edge of space, as far as each picture shows it; each has other grey values, so that it is like no
+  /// other.
   void Edge(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
     const double dark = 40 + 25 * (n_edges_ % 5), bright = dark + 40 + 10 * (n_edges_ % 3);
     ++n_edges_;
@@ -24,7 +26,9 @@ class DrawnScene {
       if (edge) view->Draw(edge->p, edge->q, dark, bright);
     }
   }
-  void Upright(const Eigen::Vector2d& at, double bottom, double top) { Edge(Above(at, bottom), Above(at, top)); }
+  void Upright(const Eigen::Vector2d& at, double bottom, double top) {
+    Edge(Above(at, bottom), Above(at, top));
+  }
   void Level(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double z) {
     Edge(Above(from, z), Above(to, z));
   }

@@ -49,14 +49,15 @@ TEST(SceneTracks, AFrontBecomesABoxWhenItsSideIsSeen) {
 
 TEST(SceneTracks, TwoSidesOfOneCornerAreTwoFronts) {
   SceneTracks dut;
-  dut.Add(std::array{Object(ObjectKind::kFace, {2, 0.1, 0}), Object(ObjectKind::kFace, {2.1, 0, kPi / 2})}, {},
-          At(0));
+  dut.Add(std::array{Object(ObjectKind::kFace, {2, 0.1, 0}), Object(ObjectKind::kFace, {2.1, 0, kPi / 2})},
+          {}, At(0));
   EXPECT_EQ(dut.tracks().size(), 2u);
 }
 
 TEST(SceneTracks, AnEdgeGoesIntoTheFrontThatItBelongsTo) {
   SceneTracks dut;
-  dut.Add(std::array{Object(ObjectKind::kEdge, {2, 0.3, 0}), Object(ObjectKind::kEdge, {2, 1.3, 0})}, {}, At(0));
+  dut.Add(std::array{Object(ObjectKind::kEdge, {2, 0.3, 0}), Object(ObjectKind::kEdge, {2, 1.3, 0})}, {},
+          At(0));
   ASSERT_EQ(dut.tracks().size(), 2u);
   dut.Add(std::array{Object(ObjectKind::kFace, {2, 0, 0})}, {}, At(1));
   ASSERT_EQ(dut.tracks().size(), 2u);
