@@ -69,14 +69,21 @@ class FaceSearch {
     return std::abs(z - end_a) < Near_m(a, end_a) && std::abs(z - end_b) < Near_m(b, end_b);
   }
 
-  /// Upright edges end at the top, or are seen in part only; then the level one must end where they stand.
+  /// Both upright edges are seen up to the top and not beyond, and the level one between them in part; or the
+  /// level one is seen from end to end, and upright ones in part.
   bool IsTop(const UprightEdge& a, const UprightEdge& b, double low, double z) const {
     if (z - low < options_.min_height_m || a.top_m > z + Near_m(a, z) || b.top_m > z + Near_m(b, z))
       return false;
     if (GoesOn(a, z) || GoesOn(b, z)) return false;
+    if (RunsUpTo(a, low, z) && RunsUpTo(b, low, z)) return true;
     const bool joins = Joins(a, b, a.top_m, b.top_m, z);
     return EndsInBoth(views_, Above(a, z), Above(b, z), joins ? EndRule::kReach : EndRule::kStop,
                       options_.ends);
+  }
+
+  bool RunsUpTo(const UprightEdge& edge, double low, double z) const {
+    const double from = std::max(low, z - options_.beyond_m);
+    return CoverInBoth(views_, Above(edge, from), Above(edge, z)) > options_.min_below;
   }
 
   /// Whether both images show an upright edge above a height as well: what is level behind an opening seems

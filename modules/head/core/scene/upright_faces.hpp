@@ -25,7 +25,8 @@ struct FaceOptions {
   double min_cover = 0.6;  ///< share of its upper edge that must be seen, in each image
   double corner_m = 0.04;  ///< largest distance of an upright edge's end from the level edge
   double corner_px = 5;    ///< and in the image, beyond that
-  double beyond_m = 0.3, most_beyond = 0.4;  ///< an edge of which more is seen so far above goes on there
+  double beyond_m = 0.3;   ///< so far below and above a corner its upright edge is looked at:
+  double min_below = 0.6, most_beyond = 0.4;  ///< shares that must be seen, and must not
   EndTolerance ends;  ///< the level edge reaches so near to the upright ones, in each image
   double min_quality = 0.6;
   double level_m = 0.02;     ///< largest difference of height between the ends of a level edge

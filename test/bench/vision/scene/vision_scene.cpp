@@ -95,7 +95,7 @@ double Mean(const std::vector<double>& values) {
 void Print(const SceneSeries& s, double seconds, int looks, Figures& figures) {
   fmt::print("  {} of {} fronts found, {} of them as boxes; {} faces told, {} phantoms; {:.1f} ms each\n",
              s.found, s.wanted, s.boxes, s.told, s.phantoms, 1e3 * seconds / looks);
-  figures.AtLeast("  fronts found", static_cast<double>(s.found) / std::max(1, s.wanted), 0.8, "");
+  figures.AtLeast("  fronts found", static_cast<double>(s.found) / std::max(1, s.wanted), 0.95, "");
   figures.AtMost("  phantoms of what is told", static_cast<double>(s.phantoms) / std::max(1, s.told), 0.02,
                  "");
   figures.AtMost("  error square to the front, 95 %", 1e3 * Quantile(s.across_m, 0.95), 30, "mm");
