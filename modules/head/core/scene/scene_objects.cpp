@@ -75,8 +75,9 @@ class Grouping {
     if (away.dot(middle - eye_) < 0) away = -away;
     object.base_from_front = {middle.x(), middle.y(), std::atan2(away.y(), away.x())};
     // The calibration's error is common to both edges: their mean is no better than one of them.
-    object.covariance =
-        (uprights_[face.left].covariance + uprights_[face.right].covariance) / 2 + FrameError();
+    object.covariance = (uprights_[face.left].covariance + uprights_[face.right].covariance) / 2 +
+                        FrameError() +
+                        options_.arris_sigma_m * options_.arris_sigma_m * along * along.transpose();
     object.sigma_yaw_rad = SigmaYaw(face);
     object.width_m = face.width_m;
     object.bottom_m = face.bottom_m;

@@ -42,6 +42,7 @@ struct SceneOptions {
   double same_top_m = 0.05;      ///< largest difference between the upper edges of a box's faces
   double min_edge_m = 0.3;       ///< height of an edge that stands alone
   double frame_sigma_m = 0.003;  ///< error of the calibrated base frame, and of arrises that are not sharp
+  double arris_sigma_m = 0.015;  ///< along a front: what was taken for its arris may be a line beside it
 };
 
 /// Puts together what stands before the head (the paper's reconstruction of the scene): edges of space from
