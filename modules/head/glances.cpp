@@ -73,18 +73,18 @@ void Glances::Add(const std::array<std::optional<GreyImage>, 2>& pictures, const
                   const PoseSample& robot) {
   const Glance glance = evaluator_.Evaluate(pictures, setting, to_the_side_);
   doors_.Add(glance.doors, robot.map_from_base, robot.time);
-  Add(glance.objects, robot);
+  Add(glance.scene, robot);
 }
 
-void Glances::Add(std::span<const SceneObject> objects, const PoseSample& robot) {
-  objects_.Add(objects, robot.map_from_base, robot.time);
+void Glances::Add(const Scene& scene, const PoseSample& robot) {
+  objects_.Add(scene, robot.map_from_base, robot.time);
 }
 
 void Glances::Tell(Time now) {
   if (const DoorTrack* door = WhoseTurn(doors_, door_turns_, now))
     door_found_.Publish(ToMessage(*door, doors_.StateOf(*door)));
   if (const SceneTrack* object = WhoseTurn(objects_, object_turns_, now))
-    scene_object_.Publish(ToMessage(*object));
+    scene_object_.Publish(ToMessage(*object, objects_.HasGone(*object)));
 }
 
 }  // namespace priamos::head

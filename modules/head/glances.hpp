@@ -2,7 +2,6 @@
 
 #include <array>
 #include <optional>
-#include <span>
 
 #include "bus/context.hpp"
 #include "head/core/doors/door_tracks.hpp"
@@ -32,7 +31,7 @@ class Glances {
   void Add(const std::array<std::optional<GreyImage>, 2>& pictures, const HeadSetting& setting,
            const PoseSample& robot);
   /// Takes what a look showed beside its landmark.
-  void Add(std::span<const SceneObject> objects, const PoseSample& robot);
+  void Add(const Scene& scene, const PoseSample& robot);
   /// Tells a door and an object, when it is time.
   void Tell(Time now);
 

@@ -296,7 +296,7 @@ LookAnswer HeadApp::Evaluate(const Frames& frames) {
   answer.leaf = result.leaf;
   answer.n_third = result.n_third;
   if (result.drift) Judge(*result.drift);
-  if (const auto robot = poses_.At(answer.exposure)) glances_.Add(result.objects, *robot);
+  if (const auto robot = poses_.At(answer.exposure)) glances_.Add(result.scene, *robot);
   return answer;
 }
 

@@ -221,7 +221,7 @@ door_found_t ToMessage(const DoorTrack& door, DoorState state) {
   return message;
 }
 
-scene_object_t ToMessage(const SceneTrack& track) {
+scene_object_t ToMessage(const SceneTrack& track, bool has_gone) {
   scene_object_t message{};
   const Pose2& place = track.place.map_from_thing;
   const SceneObject& object = track.object;
@@ -239,7 +239,7 @@ scene_object_t ToMessage(const SceneTrack& track) {
   message.sigma_across_m = sigma.x();
   message.sigma_along_m = sigma.y();
   message.sigma_yaw_rad = std::min(object.sigma_yaw_rad, kMostSigmaYaw_rad);
-  message.looks = static_cast<std::int8_t>(std::min(track.looks, 63));
+  message.looks = static_cast<std::int8_t>(has_gone ? 0 : std::min(track.looks, 63));
   return message;
 }
 

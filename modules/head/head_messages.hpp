@@ -56,7 +56,7 @@ landmark_fix_t ToMessage(const LookAnswer& answer);
 std::optional<door_seen_t> DoorSeenMessage(const LookAnswer& answer);
 /// A door that was found, in the state `state`.
 door_found_t ToMessage(const DoorTrack& door, DoorState state);
-scene_object_t ToMessage(const SceneTrack& track);
+scene_object_t ToMessage(const SceneTrack& track, bool has_gone);
 /// The view as a message; edges that do not fit it, the last ones, are left out and counted.
 landmark_view_t ViewMessage(const LookAnswer& answer);
 /// The pieces as a message; of those that do not fit, kMissing ones are left out first, then the lowest. They

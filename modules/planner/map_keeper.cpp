@@ -78,7 +78,7 @@ std::optional<LearnedObject> FromMessage(const scene_object_t& m) {
                     Within(m.width_m, 0, kSize_m) && Within(m.depth_m, 0, kSize_m) &&
                     Within(m.bottom_m, 0, kHeight_m) && Within(m.top_m, m.bottom_m, kHeight_m) &&
                     Within(m.sigma_along_m, 0, kSigma) && Within(m.sigma_across_m, 0, kSigma) &&
-                    Within(m.sigma_yaw_rad, 0, kSigma) && Within(m.looks, 1, 63) && m.utime_seen >= 0;
+                    Within(m.sigma_yaw_rad, 0, kSigma) && Within(m.looks, 0, 63) && m.utime_seen >= 0;
   const bool has_front = good && (m.kind == scene_object_t::EDGE || m.width_m > 0);
   if (!has_front) return std::nullopt;
   LearnedObject object;

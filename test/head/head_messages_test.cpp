@@ -76,7 +76,7 @@ TEST(HeadMessagesTest, AnObjectHasItsErrorsAlongItsFrontAndAcross) {
   track.object.depth_m = 0.4;
   track.object.top_m = 3;
   track.looks = 100;
-  const scene_object_t message = ToMessage(track);
+  const scene_object_t message = ToMessage(track, false);
   EXPECT_EQ(message.utime_seen, 7'000'000);
   EXPECT_EQ(message.id, 9);
   EXPECT_EQ(message.kind, scene_object_t::BOX);
@@ -87,6 +87,7 @@ TEST(HeadMessagesTest, AnObjectHasItsErrorsAlongItsFrontAndAcross) {
   EXPECT_NEAR(message.sigma_along_m, 0.04, 1e-9);
   EXPECT_NEAR(message.sigma_across_m, 0.01, 1e-9);
   EXPECT_EQ(message.sigma_yaw_rad, 0.63) << "its bound";
+  EXPECT_EQ(ToMessage(track, true).looks, 0) << "it has gone";
   EXPECT_EQ(message.looks, 63) << "as many as the field has";
 }
 

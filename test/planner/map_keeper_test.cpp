@@ -167,7 +167,7 @@ TEST(ObjectMessage, NumbersOutOfRangeAreNoThing) {
   EXPECT_TRUE(refused([](scene_object_t& t) { t.sigma_along_m = -0.1; }));
   EXPECT_TRUE(refused([](scene_object_t& t) { t.sigma_across_m = 1; }));
   EXPECT_TRUE(refused([](scene_object_t& t) { t.sigma_yaw_rad = kNaN; }));
-  EXPECT_TRUE(refused([](scene_object_t& t) { t.looks = 0; }));
+  EXPECT_TRUE(refused([](scene_object_t& t) { t.looks = -1; }));
   EXPECT_TRUE(refused([](scene_object_t& t) { t.utime_seen = -1; }));
 }
 

@@ -21,7 +21,7 @@ struct LearnedObject {
   double sigma_along_m = 0, sigma_across_m = 0;  ///< of that middle, along the front and square to it
   double sigma_yaw_deg = 0;
   double seen_s = 0;  ///< since 1970, when it was seen last
-  int looks = 1;      ///< that showed it
+  int looks = 1;      ///< that showed it; 0: it has gone
 
   void Describe(Archive& a);
   Pose2 map_from_front() const { return {x_m, y_m, Radians(yaw_deg)}; }

@@ -61,6 +61,15 @@ void MakeRoom(std::vector<LearnedObject>& objects) {
                                    [](const auto& a, const auto& b) { return a.seen_s < b.seen_s; }));
 }
 
+/// What was seen there later remains.
+bool TakeAway(const LearnedObject& gone, LearnedWalls& map) {
+  const auto erased = std::erase_if(map.objects, [&](const LearnedObject& known) {
+    return AreOne(gone, known) && known.seen_s < gone.seen_s + kSameMoment_s;
+  });
+  if (erased > 0) ++map.revision;
+  return erased > 0;
+}
+
 }  // namespace
 
 bool AreOne(const LearnedObject& a, const LearnedObject& b) {
@@ -69,6 +78,7 @@ bool AreOne(const LearnedObject& a, const LearnedObject& b) {
 }
 
 bool EnterObject(const LearnedObject& told, LearnedWalls& map) {
+  if (told.looks == 0) return TakeAway(told, map);
   LearnedObject now = told;
   now.id = NextObjectId(map);
   double least_m = std::numeric_limits<double>::infinity();

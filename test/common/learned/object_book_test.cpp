@@ -56,6 +56,18 @@ TEST(ObjectBook, ThingsAreKnownByTheirPlace) {
   EXPECT_EQ(map.revision, 3);
 }
 
+TEST(ObjectBook, WhatHasGoneIsTakenAway) {
+  LearnedWalls map;
+  EnterObject(Told("box", 2, 1), map);
+  EnterObject(Told("box", 4, 1), map);
+  EXPECT_FALSE(EnterObject(Told("face", 6, 1, 0, 120, 0), map)) << "nothing stood there";
+  EXPECT_FALSE(EnterObject(Told("face", 2, 1, 0, 50, 0), map)) << "it was seen later";
+  EXPECT_TRUE(EnterObject(Told("face", 2, 1, 0, 120, 0), map));
+  ASSERT_THAT(map.objects, SizeIs(1));
+  EXPECT_EQ(map.objects[0].x_m, 4);
+  EXPECT_EQ(map.revision, 3);
+}
+
 TEST(ObjectBook, WhatIsToldAgainChangesNothing) {
   LearnedWalls map;
   EnterObject(Told("face", 2, 1), map);

@@ -193,6 +193,7 @@ export class PlanView {
   private drawObjects(): void {
     const style = colour("learned");
     for (const { message: thing } of this.store.all<SceneObject>("SCENE_OBJECT")) {
+      if (thing.looks === 0) continue;  // it has gone
       if (thing.kind === SCENE_EDGE) {
         this.drawDot([thing.x_m, thing.y_m], "learned");
         continue;

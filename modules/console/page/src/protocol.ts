@@ -166,7 +166,7 @@ export interface DoorFound { id: number; x_m: number; y_m: number; yaw_rad: numb
 /** What the head put together from edges of space; kind: SCENE_EDGE, or a rectangle or box before which it stood. */
 export interface SceneObject {
   id: number; kind: number; x_m: number; y_m: number; yaw_rad: number;
-  width_m: number; depth_m: number; bottom_m: number; top_m: number;
+  width_m: number; depth_m: number; bottom_m: number; top_m: number; looks: number;
 }
 export const SCENE_EDGE = 0;
 

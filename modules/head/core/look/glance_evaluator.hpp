@@ -15,7 +15,7 @@ namespace priamos::head {
 /// What a glance showed, base frame.
 struct Glance {
   std::vector<DoorSighting> doors;
-  std::vector<SceneObject> objects;
+  Scene scene;
 };
 
 /// Settings of a glance's evaluation.

@@ -57,7 +57,7 @@ LookResult LookEvaluator::Evaluate(const LookInput& input) {
   const int camera = CameraToShow(result.fix);
   result.view = ViewLandmark(*input.model, expected, result.fix, views[camera], camera);
   result.drift = MeasureLookDrift(*input.model, result.fix, views, drift_options_);
-  result.objects = ReconstructScene(views, third ? &all[kThird] : nullptr, scene_options_);
+  result.scene = ReconstructScene(views, third ? &all[kThird] : nullptr, scene_options_);
   return result;
 }
 

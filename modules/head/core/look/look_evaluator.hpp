@@ -33,7 +33,7 @@ struct LookResult {
   LandmarkView view;                 ///< edges that led to the verdict; empty without two usable images
   std::optional<LeafSight> leaf;     ///< leaf of the door found; nullopt: no door was found
   std::optional<StereoDrift> drift;  ///< turn of the right camera; nullopt: this look does not determine it
-  std::vector<SceneObject> objects;  ///< what else stands there, base frame
+  Scene scene;                       ///< what else stands there
 };
 
 /// Settings of a look's evaluation.

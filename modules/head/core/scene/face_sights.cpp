@@ -42,41 +42,31 @@ class SeenFace {
   double eye_m_ = 0;  ///< distance of the camera from the plane
 };
 
-/// Standard deviation of the middle of an edge along a direction of the floor.
-double SigmaAlong(const SpaceEdge& edge, const Eigen::Vector2d& direction) {
-  const Eigen::Matrix2d covariance = (edge.covariance.block<2, 2>(0, 0) + edge.covariance.block<2, 2>(3, 3) +
-                                      edge.covariance.block<2, 2>(0, 3) + edge.covariance.block<2, 2>(3, 0)) /
-                                     4;
-  return std::sqrt(std::max(0.0, direction.dot(covariance * direction)));
-}
-
 }  // namespace
 
-bool IsSeenThrough(const FacePlane& face, const CameraView& left, std::span<const StereoMatch> matches,
+bool IsSeenThrough(const FacePlane& face, const CameraModel& left, std::span<const SceneEdge> edges,
                    double behind_m) {
-  const SeenFace seen(face, OpticalCentre(*left.camera));
+  const SeenFace seen(face, OpticalCentre(left));
   double behind_px = 0, on_px = 0;
-  for (const StereoMatch& match : matches) {
-    if (!match.space) continue;
-    const Eigen::Vector3d middle = (match.space->from + match.space->to) / 2;
-    if (!seen.Shows(middle, kBorder_m)) continue;
-    const double behind = seen.Behind(middle), sigma = SigmaAlong(*match.space, seen.away());
-    const double length_px = left.lines[match.left].length_px;
+  for (const SceneEdge& edge : edges) {
+    if (!seen.Shows(edge.middle, kBorder_m)) continue;
+    const double behind = seen.Behind(edge.middle);
+    const double sigma = std::sqrt(seen.away().dot(edge.covariance * seen.away()));
     if (behind > behind_m + 3 * sigma)
-      behind_px += length_px;
+      behind_px += edge.length_px;
     else if (std::abs(behind) < behind_m / 2 + 3 * sigma)
-      on_px += length_px;
+      on_px += edge.length_px;
   }
   const Eigen::Vector2d middle = (face.from + face.to) / 2;
-  const double height_px = (left.camera->Project({middle.x(), middle.y(), face.top_m}) -
-                            left.camera->Project({middle.x(), middle.y(), face.bottom_m}))
+  const double height_px = (left.Project({middle.x(), middle.y(), face.top_m}) -
+                            left.Project({middle.x(), middle.y(), face.bottom_m}))
                                .norm();
   return behind_px > on_px + kLeastShare * height_px;
 }
 
-double Overlap(const FacePlane& face, const FacePlane& other, const CameraView& left) {
+double Overlap(const FacePlane& face, const FacePlane& other, const CameraModel& left) {
   constexpr int kSteps = 8;
-  const SeenFace seen(other, OpticalCentre(*left.camera));
+  const SeenFace seen(other, OpticalCentre(left));
   int within = 0;
   for (int i = 0; i < kSteps; ++i) {
     for (int j = 0; j < kSteps; ++j) {

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <span>
 
-#include "head/core/stereo/edge_stereo.hpp"
-#include "head/core/stereo/view_line.hpp"
+#include "head/core/camera/camera_model.hpp"
+#include "head/core/scene/scene_edges.hpp"
 
 namespace priamos::head {
 
@@ -19,10 +19,10 @@ struct FacePlane {
 
 /// Whether edges of space are seen through it: those that appear within it and lie more than `behind_m`, and
 /// 3 sigmas, behind its plane outweigh those on the plane.
-bool IsSeenThrough(const FacePlane& face, const CameraView& left, std::span<const StereoMatch> matches,
+bool IsSeenThrough(const FacePlane& face, const CameraModel& left, std::span<const SceneEdge> edges,
                    double behind_m);
 
 /// The share of a face that appears, in the left image, where the other one does; 0 for faces that only meet.
-double Overlap(const FacePlane& face, const FacePlane& other, const CameraView& left);
+double Overlap(const FacePlane& face, const FacePlane& other, const CameraModel& left);
 
 }  // namespace priamos::head

@@ -147,18 +147,19 @@ class Grouping {
 
 }  // namespace
 
-std::vector<SceneObject> ReconstructScene(const StereoViews& views, const CameraView* third,
-                                          const SceneOptions& options) {
+Scene ReconstructScene(const StereoViews& views, const CameraView* third, const SceneOptions& options) {
   std::vector<StereoMatch> matches = MatchBinocular(views[0], views[1], options.stereo);
   if (third) {
     auto confirmed = MatchTrinocular(views[0], views[1], *third, options.stereo);
     matches.insert(matches.end(), std::make_move_iterator(confirmed.begin()),
                    std::make_move_iterator(confirmed.end()));
   }
+  Scene scene{*views[0].camera, {}, SceneEdges(views[0], matches)};
   std::vector<UprightEdge> uprights = FindUprights(matches, options.uprights);
   AddUprightsAtLevelEnds(views, options.uprights, options.level_ends, uprights);
-  const std::vector<UprightFace> faces = FindFaces(views, matches, uprights, options.faces);
-  return Grouping(views, uprights, faces, options).Run();
+  const std::vector<UprightFace> faces = FindFaces(views, scene.edges, uprights, options.faces);
+  scene.objects = Grouping(views, uprights, faces, options).Run();
+  return scene;
 }
 
 }  // namespace priamos::head

@@ -30,6 +30,13 @@ struct SceneObject {
   double bottom_m = 0, top_m = 0;
 };
 
+/// What one look showed of the scene, base frame.
+struct Scene {
+  CameraModel left;  ///< which saw it
+  std::vector<SceneObject> objects;
+  std::vector<SceneEdge> edges;  ///< all that have a place in space
+};
+
 /// How the edges of a scene are matched and grouped.
 struct SceneOptions {
   StereoOptions stereo;
@@ -48,7 +55,6 @@ struct SceneOptions {
 /// Puts together what stands before the head (the paper's reconstruction of the scene): edges of space from
 /// both pictures, or all three with `third`, then upright faces, then boxes. What nothing joins to a face
 /// remains an edge.
-std::vector<SceneObject> ReconstructScene(const StereoViews& views, const CameraView* third,
-                                          const SceneOptions& options);
+Scene ReconstructScene(const StereoViews& views, const CameraView* third, const SceneOptions& options);
 
 }  // namespace priamos::head

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "head/core/scene/face_sights.hpp"
+
 namespace priamos::head {
 namespace {
 
@@ -39,6 +41,14 @@ void JoinMeasures(const SceneObject& seen, double share, SceneObject& object) {
   object.kind = ObjectKind::kBox;
 }
 
+/// Its front, as a robot sees it that is elsewhere now.
+FacePlane FrontOf(const SceneTrack& track, const Pose2& map_from_base) {
+  const Pose2 front = map_from_base.Inverse() * track.place.map_from_thing;
+  const double half = track.object.width_m / 2;
+  return {front * Eigen::Vector2d(0, half), front * Eigen::Vector2d(0, -half), track.object.bottom_m,
+          track.object.top_m};
+}
+
 }  // namespace
 
 bool SceneTracks::IsBelieved(const SceneTrack& track) const {
@@ -48,11 +58,13 @@ bool SceneTracks::IsBelieved(const SceneTrack& track) const {
 }
 
 std::vector<Tellable> SceneTracks::Tellables(Time now) const {
+  constexpr int kGone = -1;
   std::vector<Tellable> objects;
-  for (const SceneTrack& track : tracks_)
-    if (IsBelieved(track) && Seconds(now - track.seen) <= options_.told_for_s)
-      objects.push_back({track.id, track.place.map_from_thing.translation(),
-                         static_cast<int>(track.object.kind), IsEdge(track) ? 0 : 1});
+  for (const SceneTrack& track : tracks_) {
+    if (!IsBelieved(track) || Seconds(now - track.seen) > options_.told_for_s) continue;
+    objects.push_back({track.id, track.place.map_from_thing.translation(),
+                       HasGone(track) ? kGone : static_cast<int>(track.object.kind), IsEdge(track) ? 0 : 1});
+  }
   return objects;
 }
 
@@ -60,7 +72,7 @@ SceneTrack* SceneTracks::Find(const SceneTrack& seen) {
   SceneTrack* nearest = nullptr;
   double least_m = IsEdge(seen) ? options_.same_edge_m : options_.same_m;
   for (SceneTrack& track : tracks_) {
-    if (IsEdge(track) != IsEdge(seen) || Apart(track, seen) > least_m) continue;
+    if (HasGone(track) || IsEdge(track) != IsEdge(seen) || Apart(track, seen) > least_m) continue;
     const double turn = WrapAngle(track.place.map_from_thing.yaw - seen.place.map_from_thing.yaw);
     if (!IsEdge(seen) && std::abs(turn) > options_.same_yaw_rad) continue;
     least_m = Apart(track, seen);
@@ -82,13 +94,14 @@ void SceneTracks::Join(const SceneTrack& seen, SceneTrack& track) const {
   const double share = Fuse(seen.place, options_.place, track.place);
   JoinMeasures(seen.object, share, track.object);
   track.seen = seen.seen;
+  track.through = 0;
   ++track.looks;
 }
 
 /// An arris that once stood alone belongs to a front that a later look showed.
 bool SceneTracks::IsPartOfFront(const SceneTrack& edge) const {
   return std::any_of(tracks_.begin(), tracks_.end(), [&](const SceneTrack& front) {
-    if (IsEdge(front)) return false;
+    if (IsEdge(front) || HasGone(front)) return false;
     const Eigen::Vector2d half(0, front.object.width_m / 2);
     return DistanceToSegment(front.place.map_from_thing * Eigen::Vector2d(-half),
                              front.place.map_from_thing * half,
@@ -96,8 +109,20 @@ bool SceneTracks::IsPartOfFront(const SceneTrack& edge) const {
   });
 }
 
-void SceneTracks::Add(std::span<const SceneObject> objects, const Pose2& map_from_base, Time exposure) {
-  for (const SceneObject& object : objects) {
+/// Counts for each front that was not seen now whether something behind it was.
+void SceneTracks::LookThrough(const Scene& scene, const Pose2& map_from_base, Time exposure) {
+  for (SceneTrack& track : tracks_) {
+    if (IsEdge(track) || HasGone(track) || track.seen == exposure) continue;
+    if (!IsSeenThrough(FrontOf(track, map_from_base), scene.left, scene.edges, options_.behind_m)) continue;
+    if (++track.through == options_.gone_after) track.seen = exposure;
+  }
+  std::erase_if(tracks_, [&](const SceneTrack& track) {
+    return HasGone(track) && (!IsBelieved(track) || Seconds(exposure - track.seen) > options_.gone_for_s);
+  });
+}
+
+void SceneTracks::Add(const Scene& scene, const Pose2& map_from_base, Time exposure) {
+  for (const SceneObject& object : scene.objects) {
     SceneTrack seen = AsTrack(object, map_from_base, exposure, options_.place);
     if (SigmaOf(seen.place.covariance) > options_.max_sigma_m) continue;
     if (SceneTrack* track = Find(seen))
@@ -106,6 +131,7 @@ void SceneTracks::Add(std::span<const SceneObject> objects, const Pose2& map_fro
       Begin(std::move(seen));
   }
   std::erase_if(tracks_, [&](const SceneTrack& track) { return IsEdge(track) && IsPartOfFront(track); });
+  LookThrough(scene, map_from_base, exposure);
 }
 
 }  // namespace priamos::head

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "common/time.hpp"
@@ -17,6 +16,7 @@ struct SceneTrack {
   TrackedPlace place;  ///< middle of its front; x square to it, away from where it was seen
   SceneObject object;  ///< kind, measures and sigma of its yaw; its place means nothing
   int looks = 0;
+  int through = 0;            ///< looks since then that saw through where it stood
   Pose2 map_from_first_base;  ///< from where it was seen first
 };
 
@@ -29,6 +29,9 @@ struct SceneTrackOptions {
   double max_sigma_m = 0.15;  ///< an object that claims more is of no use
   int min_looks = 2;          ///< that showed it before it is told ...
   double min_driven_m = 0.1;  ///< ... from places that are so far apart: the same pair errs in the same way
+  int gone_after = 2;         ///< looks that saw through it before it has gone
+  double behind_m = 0.1;      ///< what is seen through it is farther behind it than this
+  double gone_for_s = 60;     ///< so long is told that it has gone
   double told_for_s = 600;    ///< what was not seen for longest is not told again
   int most = 64;              ///< of more, that goes which was not seen for longest
 };
@@ -39,11 +42,13 @@ class SceneTracks {
   explicit SceneTracks(const SceneTrackOptions& options = {}) : options_(options) {}
 
   /// Takes what one look showed from `map_from_base`.
-  void Add(std::span<const SceneObject> objects, const Pose2& map_from_base, Time exposure);
+  void Add(const Scene& scene, const Pose2& map_from_base, Time exposure);
   /// Forgets them all, because the frame of the map is another one now.
   void Forget() { tracks_.clear(); }
   /// Whether enough looks showed it.
   bool IsBelieved(const SceneTrack& track) const;
+  /// Whether it stood there, and looks saw through where it did.
+  bool HasGone(const SceneTrack& track) const { return track.through >= options_.gone_after; }
   /// Those that may be told now, for TurnTaking.
   std::vector<Tellable> Tellables(Time now) const;
   /// All of them, in the order in which they were found.
@@ -54,6 +59,7 @@ class SceneTracks {
   void Begin(SceneTrack seen);
   void Join(const SceneTrack& seen, SceneTrack& track) const;
   bool IsPartOfFront(const SceneTrack& edge) const;
+  void LookThrough(const Scene& scene, const Pose2& map_from_base, Time exposure);
 
   SceneTrackOptions options_;
   std::vector<SceneTrack> tracks_;

@@ -146,7 +146,7 @@ FacePlane PlaneOf(const UprightFace& face, std::span<const UprightEdge> uprights
 
 }  // namespace
 
-std::vector<UprightFace> FindFaces(const StereoViews& views, std::span<const StereoMatch> matches,
+std::vector<UprightFace> FindFaces(const StereoViews& views, std::span<const SceneEdge> edges,
                                    std::span<const UprightEdge> uprights, const FaceOptions& options) {
   const FaceSearch search(views, uprights, options);
   std::vector<UprightFace> candidates;
@@ -160,9 +160,9 @@ std::vector<UprightFace> FindFaces(const StereoViews& views, std::span<const Ste
     const FacePlane plane = PlaneOf(face, uprights);
     const bool known = std::any_of(faces.begin(), faces.end(), [&](const UprightFace& other) {
       return IsWithin(face, other, uprights, options) ||
-             Overlap(plane, PlaneOf(other, uprights), views[0]) > options.max_overlap;
+             Overlap(plane, PlaneOf(other, uprights), *views[0].camera) > options.max_overlap;
     });
-    if (!known && !IsSeenThrough(plane, views[0], matches, options.behind_m)) faces.push_back(face);
+    if (!known && !IsSeenThrough(plane, *views[0].camera, edges, options.behind_m)) faces.push_back(face);
   }
   return faces;
 }

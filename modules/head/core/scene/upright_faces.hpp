@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "head/core/scene/face_cover.hpp"
+#include "head/core/scene/scene_edges.hpp"
 #include "head/core/scene/upright_edges.hpp"
-#include "head/core/stereo/edge_stereo.hpp"
 #include "head/core/stereo/view_line.hpp"
 
 namespace priamos::head {
@@ -37,9 +37,9 @@ struct FaceOptions {
 };
 
 /// The faces between `uprights`, the larger and better seen ones first; one that lies within another, on its
-/// plane, is left out, and so is one that is seen where another one is. Where edges of the scene (`matches`)
+/// plane, is left out, and so is one that is seen where another one is. Where `edges` of the scene
 /// are seen through a rectangle, behind it, it is an opening and no face.
-std::vector<UprightFace> FindFaces(const StereoViews& views, std::span<const StereoMatch> matches,
+std::vector<UprightFace> FindFaces(const StereoViews& views, std::span<const SceneEdge> edges,
                                    std::span<const UprightEdge> uprights, const FaceOptions& options);
 
 }  // namespace priamos::head

@@ -123,7 +123,7 @@ void BenchScene(const VisionOptions& options, Figures& figures) {
                                     head::MakeView(look.calibrated[1], seen[1])};
       const head::CameraView above = head::MakeView(look.calibrated[2], seen[2]);
       const double begin = CpuSeconds();
-      const auto objects = head::ReconstructScene(views, third ? &above : nullptr, {});
+      const auto objects = head::ReconstructScene(views, third ? &above : nullptr, {}).objects;
       seconds += CpuSeconds() - begin;
       series.Judge(look, objects, options.verbose);
     }

@@ -19,7 +19,7 @@ GreyImage Black(int width = 768, int height = 576) {
 }
 
 bool IsEmpty(const Glance& glance) {
-  return glance.doors.empty() && glance.objects.empty();
+  return glance.doors.empty() && glance.scene.objects.empty();
 }
 
 TEST(GlanceEvaluator, BlackPicturesShowNothing) {

@@ -13,7 +13,7 @@ const FacePlane kFace({3, 0.4}, {3, -0.4}, 0.5, 1.6);
 
 bool IsOpen(const DrawnScene& scene) {
   const StereoViews views = scene.Views();
-  return IsSeenThrough(kFace, views[0], scene.Matches(views), 0.06);
+  return IsSeenThrough(kFace, *views[0].camera, SceneEdges(views[0], scene.Matches(views)), 0.06);
 }
 
 TEST(FaceSights, WhatIsSeenBehindItOpensIt) {

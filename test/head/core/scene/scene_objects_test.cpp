@@ -10,7 +10,7 @@ namespace {
 using test::DrawnScene;
 
 std::vector<SceneObject> ObjectsOf(const DrawnScene& scene) {
-  return ReconstructScene(scene.Views(), nullptr, {});
+  return ReconstructScene(scene.Views(), nullptr, {}).objects;
 }
 
 TEST(SceneObjects, ABoxHasAFrontAndADepth) {

@@ -11,7 +11,7 @@ using test::DrawnScene;
 
 std::vector<UprightFace> FacesOf(const DrawnScene& scene) {
   const StereoViews views = scene.Views();
-  return FindFaces(views, scene.Matches(views), scene.Uprights(views), {});
+  return FindFaces(views, SceneEdges(views[0], scene.Matches(views)), scene.Uprights(views), {});
 }
 
 TEST(UprightFaces, ARectangleIsOneFace) {
@@ -29,7 +29,7 @@ TEST(UprightFaces, LeftIsOnTheLeftHandOfTheHead) {
   scene.Face({3, -0.3}, {3, 0.4}, 0.5, 1.4);
   const StereoViews views = scene.Views();
   const auto uprights = scene.Uprights(views);
-  const auto faces = FindFaces(views, scene.Matches(views), uprights, {});
+  const auto faces = FindFaces(views, SceneEdges(views[0], scene.Matches(views)), uprights, {});
   ASSERT_EQ(faces.size(), 1u);
   EXPECT_GT(uprights[faces[0].left].at.y(), uprights[faces[0].right].at.y());
 }
