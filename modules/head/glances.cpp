@@ -13,6 +13,8 @@ namespace {
 /// A base that is slower stands. One that is farther on than this from one pose to the next was put
 /// elsewhere.
 constexpr double kDrives_m_s = 0.05, kJump_m = 0.3;
+/// Less is the noise of a pose that goes on.
+constexpr double kCorrected_m = 0.01, kCorrected_rad = 0.004;
 
 /// The thing whose turn it is; nullptr: none.
 template <class Tracks>
@@ -44,14 +46,36 @@ Glances::Glances(const HeadConfig& config, const HeadModel& head, bus::Context& 
 }
 
 void Glances::OnPose(const PoseSample& pose) {
-  const bool jumped =
-      pose_ && (pose.map_from_base.translation() - pose_->map_from_base.translation()).norm() > kJump_m;
+  if (pose_) {
+    const Pose2 expected = Integrate(pose_->map_from_base, pose_->twist, Seconds(pose.time - pose_->time));
+    Correct({pose.time, pose.map_from_base * expected.Inverse()});
+  }
   pose_ = pose;
-  if (!jumped) return;
-  doors_.Forget();
-  door_turns_.Forget();
-  objects_.Forget();
-  object_turns_.Forget();
+}
+
+/// From one pose to the next the base moves as it says, within the noise of its speed; the rest is a
+/// correction.
+void Glances::Correct(const Correction& correction) {
+  const Pose2& moved = correction.new_from_old;
+  const double jump_m =
+      (moved * pose_->map_from_base.translation() - pose_->map_from_base.translation()).norm();
+  if (jump_m > kJump_m) {
+    doors_.Forget();
+    door_turns_.Forget();
+    objects_.Forget();
+    object_turns_.Forget();
+    corrected_.reset();
+  } else if (jump_m > kCorrected_m || std::abs(moved.yaw) > kCorrected_rad) {
+    doors_.Move(moved);
+    objects_.Move(moved);
+    corrected_ = correction;
+  }
+}
+
+/// From where a picture was taken, as it is known since the pose was corrected.
+Pose2 Glances::PlaceOf(const PoseSample& robot) const {
+  const bool before = corrected_ && robot.time < corrected_->at;
+  return before ? corrected_->new_from_old * robot.map_from_base : robot.map_from_base;
 }
 
 /// Whether the base is driving on a path, along a corridor or another one. It needs no word over the radio.
@@ -72,12 +96,12 @@ std::optional<HeadSetting> Glances::Next(bool needed, bool glancing, Time now) {
 void Glances::Add(const std::array<std::optional<GreyImage>, 2>& pictures, const HeadSetting& setting,
                   const PoseSample& robot) {
   const Glance glance = evaluator_.Evaluate(pictures, setting, to_the_side_);
-  doors_.Add(glance.doors, robot.map_from_base, robot.time);
+  doors_.Add(glance.doors, PlaceOf(robot), robot.time);
   Add(glance.scene, robot);
 }
 
 void Glances::Add(const Scene& scene, const PoseSample& robot) {
-  objects_.Add(scene, robot.map_from_base, robot.time);
+  objects_.Add(scene, PlaceOf(robot), robot.time);
 }
 
 void Glances::Tell(Time now) {

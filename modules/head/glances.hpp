@@ -23,7 +23,8 @@ class Glances {
   /// Throws ConfigError when glances are wanted where the cameras are not calibrated.
   Glances(const HeadConfig& config, const HeadModel& head, bus::Context& context);
 
-  /// Takes the robot's pose. Doors and objects keep their places as long as the pose goes on where it was.
+  /// Takes the robot's pose. Where it is corrected, doors and objects move with it; where it begins anew
+  /// elsewhere they are forgotten.
   void OnPose(const PoseSample& pose);
   /// The setting of a glance to begin now, if any; see GlanceRhythm::Step.
   std::optional<HeadSetting> Next(bool needed, bool glancing, Time now);
@@ -36,6 +37,13 @@ class Glances {
   void Tell(Time now);
 
  private:
+  /// The last correction of the pose, and what it does to what was seen before.
+  struct Correction {
+    Time at;
+    Pose2 new_from_old;
+  };
+  void Correct(const Correction& correction);
+  Pose2 PlaceOf(const PoseSample& robot) const;
   bool Follows(bool corridor) const;
 
   HeadSetting base_;
@@ -47,6 +55,7 @@ class Glances {
   SceneTracks objects_;
   TurnTaking door_turns_, object_turns_;
   std::optional<PoseSample> pose_;  ///< newest
+  std::optional<Correction> corrected_;
   bus::Latest<path_t> path_;
   bus::Publisher<door_found_t> door_found_;
   bus::Publisher<scene_object_t> scene_object_;

@@ -82,6 +82,7 @@ std::optional<LearnedObject> FromMessage(const scene_object_t& m) {
   const bool has_front = good && (m.kind == scene_object_t::EDGE || m.width_m > 0);
   if (!has_front) return std::nullopt;
   LearnedObject object;
+  object.told_id = m.id;
   object.kind = kKinds[Counted(m.kind)];
   object.x_m = m.x_m;
   object.y_m = m.y_m;
@@ -136,7 +137,7 @@ std::shared_ptr<const LearnedWalls> MapKeeper::Tick(Time now) {
   // Who begins with nothing asks for all that the robot has found so far.
   if (!greeted_ && map_.walls().walls.empty()) acks_.Publish(features_ack_t{});
   greeted_ = true;
-  const bool was_reset = TakeOrders();
+  const bool was_reset = TakeOrders(now);
   const bool new_walls = TakeFeatures(), new_doors = TakeDoors(), new_objects = TakeObjects();
   const bool changed = new_walls || new_doors || new_objects || was_reset || std::exchange(replaced_, false);
   const bool due = was_reset || !wrote_ || Seconds(now - *wrote_) >= kWriteEvery_s;
@@ -186,13 +187,16 @@ bool MapKeeper::TakeObjects() {
   bool changed = false;
   for (const scene_object_t& message : objects_.Drain()) {
     const auto told = FromMessage(message);
-    if (!told) context_.Log(bus::Level::kWarning, "a thing refused: numbers out of range");
-    changed = (told && map_.Take(*told)) || changed;
+    if (!told)
+      context_.Log(bus::Level::kWarning,
+                   fmt::format("thing {} of the head refused: numbers out of range", message.id));
+    // The head goes on telling what it saw before the map was forgotten.
+    changed = (told && told->seen_s > reset_s_ && map_.Take(*told)) || changed;
   }
   return changed;
 }
 
-bool MapKeeper::TakeOrders() {
+bool MapKeeper::TakeOrders(Time now) {
   bool was_reset = false;
   for (const map_command_t& order : orders_.Drain()) {
     if (order.action != map_command_t::RESET) {
@@ -204,6 +208,7 @@ bool MapKeeper::TakeOrders() {
                  fmt::format("the learned map is forgotten: {} walls, {} doors, {} things",
                              known.walls.size(), known.doors.size(), known.objects.size()));
     map_.Reset();
+    reset_s_ = static_cast<double>(ToUtime(now)) * 1e-6;
     was_reset = true;
   }
   return was_reset;

@@ -55,12 +55,13 @@ class MapKeeper {
   bool TakeFeatures();
   bool TakeDoors();
   bool TakeObjects();
-  bool TakeOrders();
+  bool TakeOrders(Time now);
   bool IsToBeWritten() const;
   void Write();
 
   std::string file_;
   bus::Context& context_;
+  double reset_s_ = 0;  ///< since 1970, when the map was forgotten last
   LearnedMap map_;
   int written_ = 0;  ///< revision in the file
   std::optional<Time> wrote_;

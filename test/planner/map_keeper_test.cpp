@@ -278,13 +278,17 @@ TEST_F(MapKeeperTest, ThingsAreWrittenAndForgottenWithTheRest) {
   const LearnedWalls map = LoadLearnedWalls(file_);
   ASSERT_THAT(map.objects, SizeIs(1));
   EXPECT_EQ(map.objects[0].kind, "box");
-  EXPECT_THAT(station_->log, testing::Contains(testing::HasSubstr("a thing refused: numbers out of range")));
+  EXPECT_THAT(station_->log,
+              testing::Contains(testing::HasSubstr("thing 2 of the head refused: numbers out of range")));
   map_command_t order{};
   order.action = map_command_t::RESET;
   orders_->Publish(order);
   station_->Run(2);
   EXPECT_THAT(LoadLearnedWalls(file_).objects, IsEmpty());
   EXPECT_THAT(station_->log, testing::Contains(testing::HasSubstr("0 walls, 0 doors, 1 things")));
+  objects.Publish(Thing());
+  station_->Run(40);
+  EXPECT_THAT(LoadLearnedWalls(file_).objects, IsEmpty()) << "it was seen before all was forgotten";
 }
 
 TEST_F(MapKeeperTest, ResetForgetsAtOnce) {

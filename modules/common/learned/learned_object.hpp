@@ -23,6 +23,8 @@ struct LearnedObject {
   double seen_s = 0;  ///< since 1970, when it was seen last
   int looks = 1;      ///< that showed it; 0: it has gone
 
+  int told_id = -1;  ///< its number in the head that told it; not kept in files
+
   void Describe(Archive& a);
   Pose2 map_from_front() const { return {x_m, y_m, Radians(yaw_deg)}; }
   /// What it covers of the floor. A thing of which nobody knows how deep it is covers 5 cm behind its front,

@@ -70,6 +70,13 @@ bool TakeAway(const LearnedObject& gone, LearnedWalls& map) {
   return erased > 0;
 }
 
+/// Whether a head tells here what it told there before.
+bool HasMoved(const LearnedObject& told, const LearnedObject& known) {
+  const double younger_s = told.seen_s - known.seen_s;
+  return told.told_id >= 0 && told.told_id == known.told_id && told.looks > known.looks && younger_s >= 0 &&
+         younger_s < kForgotten_s && !TellsLess(told, known);
+}
+
 }  // namespace
 
 bool AreOne(const LearnedObject& a, const LearnedObject& b) {
@@ -89,7 +96,8 @@ bool EnterObject(const LearnedObject& told, LearnedWalls& map) {
     least_m = Away(told, known);
     now.id = known.id;
   }
-  std::erase_if(map.objects, [&](const LearnedObject& known) { return AreOne(told, known); });
+  std::erase_if(map.objects,
+                [&](const LearnedObject& known) { return AreOne(told, known) || HasMoved(told, known); });
   map.objects.push_back(now);
   MakeRoom(map.objects);
   ++map.revision;

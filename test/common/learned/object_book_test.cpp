@@ -56,6 +56,22 @@ TEST(ObjectBook, ThingsAreKnownByTheirPlace) {
   EXPECT_EQ(map.revision, 3);
 }
 
+TEST(ObjectBook, WhatAHeadTellsElsewhereUnderItsNumberHasMoved) {
+  LearnedWalls map;
+  LearnedObject thing = Told("box", 2, 1, 0, 100, 2);
+  thing.told_id = 7;
+  EnterObject(thing, map);
+  LearnedObject fewer = Told("box", 4, 1, 0, 110, 2);  // of a head that began anew
+  fewer.told_id = 7;
+  EnterObject(fewer, map);
+  EXPECT_THAT(map.objects, SizeIs(2));
+  LearnedObject moved = Told("box", 2.6, 1.5, 0, 120, 5);
+  moved.told_id = 7;
+  EnterObject(moved, map);
+  ASSERT_THAT(map.objects, SizeIs(1));
+  EXPECT_EQ(map.objects[0].x_m, 2.6);
+}
+
 TEST(ObjectBook, WhatHasGoneIsTakenAway) {
   LearnedWalls map;
   EnterObject(Told("box", 2, 1), map);

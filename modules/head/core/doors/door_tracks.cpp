@@ -60,6 +60,10 @@ void DoorTracks::Join(DoorTrack& track, const DoorTrack& seen) const {
   ++track.looks;
 }
 
+void DoorTracks::Move(const Pose2& new_from_old) {
+  for (DoorTrack& track : tracks_) head::Move(new_from_old, track.place);
+}
+
 std::vector<Tellable> DoorTracks::Tellables(Time now) const {
   std::vector<Tellable> doors;
   for (const DoorTrack& track : tracks_)

@@ -52,6 +52,8 @@ class DoorTracks {
   void Add(std::span<const DoorSighting> sightings, const Pose2& map_from_base, Time exposure);
   /// Forgets them all, because the frame of the map is another one now.
   void Forget() { tracks_.clear(); }
+  /// Moves them all, because the robot's pose was corrected.
+  void Move(const Pose2& new_from_old);
   /// Whether enough looks showed it.
   bool IsBelieved(const DoorTrack& track) const { return track.looks >= options_.min_looks; }
   DoorState StateOf(const DoorTrack& track) const { return track.state.State(options_.state_lead); }

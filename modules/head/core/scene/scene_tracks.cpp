@@ -51,6 +51,13 @@ FacePlane FrontOf(const SceneTrack& track, const Pose2& map_from_base) {
 
 }  // namespace
 
+void SceneTracks::Move(const Pose2& new_from_old) {
+  for (SceneTrack& track : tracks_) {
+    head::Move(new_from_old, track.place);
+    track.map_from_first_base = new_from_old * track.map_from_first_base;
+  }
+}
+
 bool SceneTracks::IsBelieved(const SceneTrack& track) const {
   const double driven_m =
       (track.place.map_from_base.translation() - track.map_from_first_base.translation()).norm();

@@ -45,6 +45,8 @@ class SceneTracks {
   void Add(const Scene& scene, const Pose2& map_from_base, Time exposure);
   /// Forgets them all, because the frame of the map is another one now.
   void Forget() { tracks_.clear(); }
+  /// Moves them all, because the robot's pose was corrected.
+  void Move(const Pose2& new_from_old);
   /// Whether enough looks showed it.
   bool IsBelieved(const SceneTrack& track) const;
   /// Whether it stood there, and looks saw through where it did.

@@ -22,6 +22,14 @@ TrackedPlace PlaceOf(const Pose2& base_from_thing, const Eigen::Matrix2d& covari
   return place;
 }
 
+void Move(const Pose2& new_from_old, TrackedPlace& place) {
+  const Eigen::Matrix2d turn = new_from_old.rotation();
+  place.map_from_thing = new_from_old * place.map_from_thing;
+  place.map_from_base = new_from_old * place.map_from_base;
+  place.covariance = turn * place.covariance * turn.transpose();
+  place.single = turn * place.single * turn.transpose();
+}
+
 double Fuse(const TrackedPlace& seen, const PlaceOptions& options, TrackedPlace& place) {
   const double driven_m = (seen.map_from_base.translation() - place.map_from_base.translation()).norm();
   const double drift_m = options.drift * driven_m;

@@ -28,6 +28,9 @@ double SigmaOf(const Eigen::Matrix2d& covariance);
 TrackedPlace PlaceOf(const Pose2& base_from_thing, const Eigen::Matrix2d& covariance,
                      const Pose2& map_from_base, const PlaceOptions& options);
 
+/// Puts a place where it is since the robot's pose was corrected: what was seen moves with who saw it.
+void Move(const Pose2& new_from_old, TrackedPlace& place);
+
 /// Weighs the place that a look tells against the one of all before; one that contradicts them takes their
 /// place. Returns the weight of the new one, 0 to 1, for what else is to be averaged. Looks are taken for
 /// independent but for the drift of the pose between them; an error that all share, as that of the

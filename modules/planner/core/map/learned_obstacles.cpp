@@ -11,7 +11,7 @@ namespace priamos::planner {
 namespace {
 
 /// A wall is looked at in such steps, and a shorter piece of it is nothing of its own.
-constexpr double kStep_m = 0.1, kLeastPiece_m = 0.4;
+constexpr double kStep_m = 0.1, kLeastPiece_m = 0.4, kRounding_m = 1e-6;
 /// What is nearer to something of the plan is that: people measure to so much, and sonars add their sigma.
 constexpr double kOnPlan_m = 0.15;
 constexpr double kMostSigma_m = 0.15;
@@ -21,6 +21,9 @@ constexpr double kThickness_m = 0.04;
 constexpr int kLeastLooks = 2;
 /// What begins higher is driven under, what ends lower is driven over.
 constexpr double kHighest_m = 1.6, kLowest_m = 0.03;
+/// The head sees things from up to 6 m: what is told farther from the plan is none of this building, and
+/// would make routes be looked for all the way there.
+constexpr double kBesidePlan_m = 10;
 
 /// A part of a straight front, along it from its middle.
 struct Piece {
@@ -40,7 +43,7 @@ std::vector<Piece> NewPieces(double length_m, IsNew is_new) {
     const bool is_new_here = i <= steps && is_new(along_m);
     if (is_new_here && !inside) begun_m = along_m;
     const double end_m = along_m - step_m;
-    if (!is_new_here && inside && end_m - begun_m >= std::min(kLeastPiece_m, length_m))
+    if (!is_new_here && inside && end_m - begun_m >= std::min(kLeastPiece_m, length_m) - kRounding_m)
       pieces.push_back({begun_m, end_m});
     inside = is_new_here;
   }
@@ -74,6 +77,11 @@ bool IsOnPlan(const LearnedObject& object, const ObstacleMap& plan) {
   return new_m < object.width_m / 2;
 }
 
+/// Whether it stands in the building or just outside; anywhere, where nothing is on the plan.
+bool IsNearPlan(const LearnedObject& object, const Eigen::AlignedBox2d& plan) {
+  return plan.isEmpty() || plan.exteriorDistance(Eigen::Vector2d(object.x_m, object.y_m)) < kBesidePlan_m;
+}
+
 /// Its footprint, larger by one sigma of its place.
 Rectangle ShapeOf(const LearnedObject& object) {
   Rectangle shape = object.Footprint();
@@ -92,8 +100,9 @@ std::vector<NamedObstacle> ObstaclesOf(const LearnedWalls& learned, const Obstac
          }))
       obstacles.push_back({fmt::format("learned wall {}", wall.id), ShapeOf(wall, piece)});
   const Doorways doorways(doors, learned.doors);
+  const Eigen::AlignedBox2d bounds = plan.Bounds();
   for (const LearnedObject& object : learned.objects)
-    if (IsKnownWell(object) && !IsOnPlan(object, plan) && !doorways.Has(object))
+    if (IsKnownWell(object) && IsNearPlan(object, bounds) && !IsOnPlan(object, plan) && !doorways.Has(object))
       obstacles.push_back(
           {fmt::format("{}, {}, seen by the head", NameOf(object), SizeOf(object)), ShapeOf(object)});
   return obstacles;

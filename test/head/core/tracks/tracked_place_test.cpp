@@ -41,6 +41,16 @@ TEST(TrackedPlace, WhatContradictsAllBeforeTakesTheirPlace) {
   EXPECT_NEAR(place.map_from_thing.x, 2.4, 1e-9);
 }
 
+TEST(TrackedPlace, WhatWasSeenMovesWithTheCorrectedPose) {
+  TrackedPlace place = At(2, 0.02, {1, 0, 0});
+  const Pose2 correction{0.1, 0.2, Radians(3)};
+  const Pose2 seen = place.map_from_base.Inverse() * place.map_from_thing;
+  Move(correction, place);
+  const Pose2 now = place.map_from_base.Inverse() * place.map_from_thing;
+  EXPECT_NEAR((seen.translation() - now.translation()).norm(), 0, 1e-12);
+  EXPECT_NEAR(place.map_from_thing.yaw, 0.1 + Radians(3), 1e-12);
+}
+
 TEST(TrackedPlace, ALongWayBetweenLooksMakesTheFirstOneLessCertain) {
   TrackedPlace place = At(2, 0.01);
   Fuse(At(2.03, 0.01, {-10, 0, 0}), kOptions, place);

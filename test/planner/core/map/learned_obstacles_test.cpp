@@ -67,6 +67,19 @@ TEST(ObstaclesOf, ABoxThatTheHeadSawIsOneWithItsSizeInItsName) {
   EXPECT_NEAR(dut[0].shape.half_m.y(), 0.3 + 0.03, 1e-9);
 }
 
+TEST(ObstaclesOf, AThingOfAnyWidthIsOne) {
+  for (int cm = 2; cm <= 178; cm += 2) {
+    LearnedObject box = BoxAt(3, 2.4, 90);
+    box.width_m = cm / 100.0;
+    EXPECT_THAT(Of(box), SizeIs(1)) << cm << " cm";
+  }
+}
+
+TEST(ObstaclesOf, WhatIsToldFarFromTheBuildingIsNothing) {
+  EXPECT_THAT(Of(BoxAt(-100, -100, 90)), IsEmpty());
+  EXPECT_THAT(Of(BoxAt(-3, 2.4, 90)), SizeIs(1)) << "before its door";
+}
+
 TEST(ObstaclesOf, AFaceIsFiveCentimetresDeepAndAnEdgeIsNothing) {
   LearnedObject object = BoxAt(3, 2.4, 90);
   object.kind = "face";
