@@ -7,12 +7,13 @@
 namespace priamos {
 namespace {
 
-constexpr double kSameMoment_s = 2;   ///< times travel in steps of a second
-constexpr double kNearFront_m = 0.3;  ///< fronts whose middles are nearer are one ...
-constexpr double kParallel_deg = 30;  ///< ... when their sides are parallel within this
-constexpr double kInside_m = 0.05;    ///< what is known of a footprint's border
-constexpr double kAbove_m = 0.3;      ///< what begins so far above the top of the other is another thing
-constexpr double kForgotten_s = 600;  ///< what was not seen for so long gives way to what tells less
+constexpr double kSameMoment_s = 2;    ///< times travel in steps of a second
+constexpr double kSamePlace_m = 0.02;  ///< places travel in steps of a centimetre
+constexpr double kNearFront_m = 0.3;   ///< fronts whose middles are nearer are one ...
+constexpr double kParallel_deg = 30;   ///< ... when their sides are parallel within this
+constexpr double kInside_m = 0.05;     ///< what is known of a footprint's border
+constexpr double kAbove_m = 0.3;       ///< what begins so far above the top of the other is another thing
+constexpr double kForgotten_s = 600;   ///< what was not seen for so long gives way to what tells less
 
 double Away(const LearnedObject& a, const LearnedObject& b) {
   return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m);
@@ -37,10 +38,15 @@ bool TellsLess(const LearnedObject& told, const LearnedObject& known) {
   return rank != other ? rank < other : told.looks < known.looks;
 }
 
-/// A head tells each thing again and again.
-bool IsToldAgain(const LearnedObject& told, const LearnedObject& known) {
+/// Whether no look showed more of it since.
+bool IsOfSameLooks(const LearnedObject& told, const LearnedObject& known) {
   return told.kind == known.kind && told.looks == known.looks &&
          std::abs(told.seen_s - known.seen_s) < kSameMoment_s;
+}
+
+/// A head tells each thing again and again.
+bool IsToldAgain(const LearnedObject& told, const LearnedObject& known) {
+  return IsOfSameLooks(told, known) && Away(told, known) < kSamePlace_m;
 }
 
 bool GivesWay(const LearnedObject& known, const LearnedObject& told) {
@@ -72,9 +78,10 @@ bool TakeAway(const LearnedObject& gone, LearnedWalls& map) {
 
 /// Whether a head tells here what it told there before.
 bool HasMoved(const LearnedObject& told, const LearnedObject& known) {
+  if (told.told_id < 0 || told.told_id != known.told_id || TellsLess(told, known)) return false;
   const double younger_s = told.seen_s - known.seen_s;
-  return told.told_id >= 0 && told.told_id == known.told_id && told.looks > known.looks && younger_s >= 0 &&
-         younger_s < kForgotten_s && !TellsLess(told, known);
+  const bool goes_on = told.looks > known.looks && younger_s >= 0 && younger_s < kForgotten_s;
+  return goes_on || IsOfSameLooks(told, known);
 }
 
 }  // namespace

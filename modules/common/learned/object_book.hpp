@@ -10,8 +10,9 @@ namespace priamos {
 /// tells less than the map has (a face of a box, or what fewer looks showed) replaces it only when that was
 /// not told for ten minutes, or the parts of one thing would take turns. Of more than kMostObjects that goes
 /// which was not seen for longest. One that a head
-/// tells elsewhere under its number, after more looks, has another place now, since the pose was corrected.
-/// One of 0 looks has gone: what the map has of it goes as well. Returns whether the map is another one now.
+/// tells elsewhere under its number, of the same looks or more, has another place now, since the pose was
+/// corrected. One of 0 looks has gone: what the map has of it goes as well. Returns whether the map is
+/// another one now.
 bool EnterObject(const LearnedObject& told, LearnedWalls& map);
 
 /// Whether two things are one: the middle of either lies in the other's footprint, or the middles of their

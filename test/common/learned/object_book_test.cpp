@@ -61,11 +61,15 @@ TEST(ObjectBook, WhatAHeadTellsElsewhereUnderItsNumberHasMoved) {
   LearnedObject thing = Told("box", 2, 1, 0, 100, 2);
   thing.told_id = 7;
   EnterObject(thing, map);
-  LearnedObject fewer = Told("box", 4, 1, 0, 110, 2);  // of a head that began anew
+  LearnedObject fewer = Told("box", 4, 1, 0, 300, 2);  // of a head that began anew
   fewer.told_id = 7;
   EnterObject(fewer, map);
   EXPECT_THAT(map.objects, SizeIs(2));
-  LearnedObject moved = Told("box", 2.6, 1.5, 0, 120, 5);
+  map.objects.pop_back();
+  LearnedObject corrected = Told("box", 2.1, 1.2, 0, 100, 2);
+  corrected.told_id = 7;
+  EXPECT_TRUE(EnterObject(corrected, map)) << "no look since, but the pose was corrected";
+  LearnedObject moved = Told("box", 2.6, 1.5, 0, 320, 5);
   moved.told_id = 7;
   EnterObject(moved, map);
   ASSERT_THAT(map.objects, SizeIs(1));
