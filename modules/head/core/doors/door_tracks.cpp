@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "head/core/tracks/track_list.hpp"
+
 namespace priamos::head {
 namespace {
-
-constexpr int kIds = 256;
 
 /// A sighting as a track of its own.
 DoorTrack AsTrack(const DoorSighting& sighting, const Pose2& map_from_base, Time exposure,
@@ -41,15 +41,6 @@ DoorTrack* DoorTracks::Find(const Pose2& map_from_door) {
   return nearest;
 }
 
-void DoorTracks::Begin(DoorTrack seen) {
-  if (tracks_.size() >= static_cast<std::size_t>(options_.most))
-    tracks_.erase(std::min_element(tracks_.begin(), tracks_.end(),
-                                   [](const auto& a, const auto& b) { return a.seen < b.seen; }));
-  last_id_ = (last_id_ + 1) % kIds;
-  seen.id = last_id_;
-  tracks_.push_back(seen);
-}
-
 void DoorTracks::Join(DoorTrack& track, const DoorTrack& seen) const {
   const double share = Fuse(seen.place, options_.place, track.place);
   track.width_m += share * (seen.width_m - track.width_m);
@@ -79,7 +70,7 @@ void DoorTracks::Add(std::span<const DoorSighting> sightings, const Pose2& map_f
     if (DoorTrack* track = Find(seen.place.map_from_thing))
       Join(*track, seen);
     else
-      Begin(seen);
+      BeginTrack(seen, options_.most, last_id_, tracks_);
   }
 }
 

@@ -64,7 +64,6 @@ class DoorTracks {
 
  private:
   DoorTrack* Find(const Pose2& map_from_door);
-  void Begin(DoorTrack seen);
   void Join(DoorTrack& track, const DoorTrack& seen) const;
 
   DoorTrackOptions options_;

@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "head/core/scene/face_sights.hpp"
+#include "head/core/tracks/track_list.hpp"
 
 namespace priamos::head {
 namespace {
-
-constexpr int kIds = 256;
 
 SceneTrack AsTrack(const SceneObject& object, const Pose2& map_from_base, Time exposure,
                    const PlaceOptions& options) {
@@ -88,15 +87,6 @@ SceneTrack* SceneTracks::Find(const SceneTrack& seen) {
   return nearest;
 }
 
-void SceneTracks::Begin(SceneTrack seen) {
-  if (tracks_.size() >= static_cast<std::size_t>(options_.most))
-    tracks_.erase(std::min_element(tracks_.begin(), tracks_.end(),
-                                   [](const auto& a, const auto& b) { return a.seen < b.seen; }));
-  last_id_ = (last_id_ + 1) % kIds;
-  seen.id = last_id_;
-  tracks_.push_back(std::move(seen));
-}
-
 void SceneTracks::Join(const SceneTrack& seen, SceneTrack& track) const {
   const double share = Fuse(seen.place, options_.place, track.place);
   JoinMeasures(seen.object, share, track.object);
@@ -135,7 +125,7 @@ void SceneTracks::Add(const Scene& scene, const Pose2& map_from_base, Time expos
     if (SceneTrack* track = Find(seen))
       Join(seen, *track);
     else
-      Begin(std::move(seen));
+      BeginTrack(std::move(seen), options_.most, last_id_, tracks_);
   }
   std::erase_if(tracks_, [&](const SceneTrack& track) { return IsEdge(track) && IsPartOfFront(track); });
   LookThrough(scene, map_from_base, exposure);

@@ -58,7 +58,6 @@ class SceneTracks {
 
  private:
   SceneTrack* Find(const SceneTrack& seen);
-  void Begin(SceneTrack seen);
   void Join(const SceneTrack& seen, SceneTrack& track) const;
   bool IsPartOfFront(const SceneTrack& edge) const;
   void LookThrough(const Scene& scene, const Pose2& map_from_base, Time exposure);
