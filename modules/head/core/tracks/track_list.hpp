@@ -6,8 +6,8 @@
 
 namespace priamos::head {
 
-/// Begins a track of what a look showed first, under the number after `last_id`, which travels as 0 to 255; of
-/// more than `most` tracks that goes which was not seen for longest.
+/// Begins a track of what a look showed first, under the number after `last_id`, which travels as 0 to 255;
+/// of more than `most` tracks that goes which was not seen for longest.
 template <class Track>
 void BeginTrack(Track seen, int most, int& last_id, std::vector<Track>& tracks) {
   constexpr int kIds = 256;
