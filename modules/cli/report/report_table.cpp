@@ -82,8 +82,9 @@ void PrintFoundObjects(std::ostream& out, const FoundObjects& things) {
                      things.faces, things.edges);
   out << fmt::format("  truly there         {}, and {} where no surface is within 10 cm\n", things.standing,
                      things.phantoms);
-  out << fmt::format("  fronts              95 % within {:.1f} cm of a true surface\n",
-                     100 * things.front_p95_m);
+  out << fmt::format(
+      "  fronts              95 % within {:.1f} cm of a true surface, less the error of the pose\n",
+      100 * things.front_p95_m);
 }
 
 void PrintHand(std::ostream& out, const HandSummary& hand) {

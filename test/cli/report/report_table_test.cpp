@@ -50,7 +50,7 @@ TEST(ReportTable, ThingsThatTheHeadSawAreShownWhenAnyWereTold) {
   const std::string dut = Printed(summary);
   EXPECT_THAT(dut, HasSubstr("6: 3 boxes, 2 faces, 1 edges"));
   EXPECT_THAT(dut, HasSubstr("5, and 1 where no surface is within 10 cm"));
-  EXPECT_THAT(dut, HasSubstr("95 % within 4.3 cm of a true surface"));
+  EXPECT_THAT(dut, HasSubstr("95 % within 4.3 cm of a true surface, less the error of the pose"));
 }
 
 TEST(ReportTable, SaysWhatIsMissing) {
