@@ -2,29 +2,18 @@
 
 #include <gtest/gtest.h>
 
+#include "test/cli/report/driven_record.hpp"
 #include "world/core/scene/build_solids.hpp"
 
 namespace priamos::cli {
 namespace {
 
-/// A base that drives 10 m along x and believes to be 5 cm to the left of where it is.
 RunRecord Drive() {
-  RunRecord record;
+  RunRecord record = DriveAlongX(0.05);
   mission_command_t order{};
   order.utime = 1'000'000;
   order.mission = mission_command_t::CORRIDOR;
   record.orders.push_back(order);
-  for (int i = 0; i <= 500; ++i) {
-    world_truth_t truth{};
-    truth.utime = 1'000'000 + i * 20'000;
-    truth.x_m = 0.02 * i;
-    record.truth.push_back(truth);
-    pose_t pose{};
-    pose.utime = truth.utime;
-    pose.x_m = truth.x_m;
-    pose.y_m = 0.05;
-    record.poses.push_back(pose);
-  }
   return record;
 }
 

@@ -2,24 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include "test/cli/report/driven_record.hpp"
+
 namespace priamos::cli {
 namespace {
 
-/// A base that drives 10 m along x and believes to be 20 cm to the left of where it is.
 RunRecord Drive() {
-  RunRecord record;
-  for (int i = 0; i <= 500; ++i) {
-    world_truth_t truth{};
-    truth.utime = 1'000'000 + i * 20'000;
-    truth.x_m = 0.02 * i;
-    record.truth.push_back(truth);
-    pose_t pose{};
-    pose.utime = truth.utime;
-    pose.x_m = truth.x_m;
-    pose.y_m = 0.2;
-    record.poses.push_back(pose);
-  }
-  return record;
+  return DriveAlongX(0.2);
 }
 
 /// A box of 0.4 x 0.6 m and 0.5 m height with its middle at (4, 1).

@@ -12,7 +12,6 @@
 namespace priamos::head {
 namespace {
 
-constexpr double kLevel = 0.05;          ///< |z| of the unit normal of a line's plane: below it an upright
 constexpr double kMinSpanShare = 0.25;   ///< share of the lintel between two uprights that must be seen
 constexpr double kSameHeight_m = 0.012;  ///< lintels whose heights differ by less are tried once
 constexpr double kOnFloor_m =
@@ -28,7 +27,7 @@ constexpr double kSmallest_px = 16;  ///< least distance of the uprights in an i
 std::vector<const ViewLine*> LevelLines(const CameraView& view) {
   std::vector<const ViewLine*> level;
   for (const ViewLine& line : view.lines)
-    if (std::abs(line.plane.z()) > kLevel) level.push_back(&line);
+    if (IsLevel(line)) level.push_back(&line);
   return level;
 }
 
@@ -111,7 +110,7 @@ class Detector {
                     const Eigen::Vector2d& end) {
     for (int other = 0; other < 2; ++other) {
       for (const ViewLine& line : views_[other]->lines) {
-        if (std::abs(line.plane.z()) > kLevel) continue;
+        if (IsLevel(line)) continue;
         const auto at = Crossing(PlanLine(lintel, z), PlanLine(line, z));
         if (!at || at->x() < 0 || !IsDoorWide(a.at, *at)) continue;
         if ((views_[c]->camera->Project({at->x(), at->y(), z}) - end).norm() > kCorner_px) continue;

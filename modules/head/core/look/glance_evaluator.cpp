@@ -25,7 +25,8 @@ Glance GlanceEvaluator::Evaluate(const std::array<std::optional<GreyImage>, 2>& 
   const StereoViews views{MakeView(*left, edges_[0]), MakeView(*right, edges_[1])};
   Glance glance;
   if (with_doors) glance.doors = FindDoors(views, {{&*images[0], &*images[1]}, {&*left, &*right}});
-  glance.scene = ReconstructScene(views, nullptr, options_.scene);
+  glance.scene =
+      ReconstructScene(views, MatchBinocular(views[0], views[1], options_.scene.stereo), options_.scene);
   return glance;
 }
 

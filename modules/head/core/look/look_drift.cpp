@@ -24,10 +24,11 @@ std::optional<StereoDrift> DriftOfLandmark(const LandmarkModel& model, const Lan
 }  // namespace
 
 std::optional<StereoDrift> MeasureLookDrift(const LandmarkModel& model, const LandmarkFix& fix,
-                                            const StereoViews& views, const StereoDriftOptions& options) {
+                                            const StereoViews& views, std::span<const StereoMatch> matches,
+                                            const StereoDriftOptions& options) {
   if (IsBlind(*views[0].edges) || IsBlind(*views[1].edges)) return std::nullopt;
   auto drift = DriftOfLandmark(model, fix, views, options);
-  const auto shift = MeasureEpipolarShift(views[0], views[1], MatchBinocular(views[0], views[1], {}));
+  const auto shift = MeasureEpipolarShift(views[0], views[1], matches);
   if (!shift) return drift;
   return Fuse(drift.value_or(UnknownDrift()), *shift, *views[1].camera);
 }

@@ -1,6 +1,7 @@
 #include "head/core/look/look_evaluator.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "head/core/doors/model_door.hpp"
 #include "head/core/look/look_drift.hpp"
@@ -56,8 +57,12 @@ LookResult LookEvaluator::Evaluate(const LookInput& input) {
   }
   const int camera = CameraToShow(result.fix);
   result.view = ViewLandmark(*input.model, expected, result.fix, views[camera], camera);
-  result.drift = MeasureLookDrift(*input.model, result.fix, views, drift_options_);
-  result.scene = ReconstructScene(views, third ? &all[kThird] : nullptr, scene_options_);
+  std::vector<StereoMatch> matches = MatchBinocular(views[0], views[1], scene_options_.stereo);
+  result.drift = MeasureLookDrift(*input.model, result.fix, views, matches, drift_options_);
+  if (third)
+    std::ranges::move(MatchTrinocular(views[0], views[1], all[kThird], scene_options_.stereo),
+                      std::back_inserter(matches));
+  result.scene = ReconstructScene(views, matches, scene_options_);
   return result;
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "head/core/camera/projection.hpp"
-#include "head/core/scene/face_cover.hpp"
+#include "head/core/stereo/plan_line.hpp"
 
 namespace priamos::head {
 namespace {

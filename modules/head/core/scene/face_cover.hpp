@@ -1,17 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
 
 #include "head/core/stereo/view_line.hpp"
 
 namespace priamos::head {
-
-/// Whether an image line may show a level edge: not one that is upright.
-inline bool IsLevel(const ViewLine& line) {
-  constexpr double kUpright = 0.05;  // |z| of the unit normal of its plane of sight
-  return std::abs(line.plane.z()) > kUpright;
-}
 
 /// The smaller share that both images show of an edge of space, of its part that lies in the picture,
 /// whatever its contrast along it; 0 where less than 16 px of it are in a picture.

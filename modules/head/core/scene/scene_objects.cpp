@@ -147,13 +147,8 @@ class Grouping {
 
 }  // namespace
 
-Scene ReconstructScene(const StereoViews& views, const CameraView* third, const SceneOptions& options) {
-  std::vector<StereoMatch> matches = MatchBinocular(views[0], views[1], options.stereo);
-  if (third) {
-    auto confirmed = MatchTrinocular(views[0], views[1], *third, options.stereo);
-    matches.insert(matches.end(), std::make_move_iterator(confirmed.begin()),
-                   std::make_move_iterator(confirmed.end()));
-  }
+Scene ReconstructScene(const StereoViews& views, std::span<const StereoMatch> matches,
+                       const SceneOptions& options) {
   Scene scene{*views[0].camera, {}, SceneEdges(views[0], matches)};
   std::vector<UprightEdge> uprights = FindUprights(matches, options.uprights);
   AddUprightsAtLevelEnds(views, options.uprights, options.level_ends, uprights);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "common/geometry.hpp"
@@ -39,7 +40,7 @@ struct Scene {
 
 /// How the edges of a scene are matched and grouped.
 struct SceneOptions {
-  StereoOptions stereo;
+  StereoOptions stereo;  ///< for who matches the edges
   UprightOptions uprights;
   LevelEndOptions level_ends;
   FaceOptions faces;
@@ -53,8 +54,9 @@ struct SceneOptions {
 };
 
 /// Puts together what stands before the head (the paper's reconstruction of the scene): edges of space from
-/// both pictures, or all three with `third`, then upright faces, then boxes. What nothing joins to a face
-/// remains an edge.
-Scene ReconstructScene(const StereoViews& views, const CameraView* third, const SceneOptions& options);
+/// `matches` of both pictures, and beside them those of all three, then upright faces, then boxes. What
+/// nothing joins to a face remains an edge.
+Scene ReconstructScene(const StereoViews& views, std::span<const StereoMatch> matches,
+                       const SceneOptions& options);
 
 }  // namespace priamos::head

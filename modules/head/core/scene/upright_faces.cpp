@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "head/core/scene/face_sights.hpp"
+#include "head/core/stereo/plan_line.hpp"
 
 namespace priamos::head {
 namespace {

@@ -5,6 +5,11 @@
 
 namespace priamos::head {
 
+bool IsLevel(const ViewLine& line) {
+  constexpr double kUpright = 0.05;  // |z| of the unit normal of its plane of sight
+  return std::abs(line.plane.z()) > kUpright;
+}
+
 PlanLine::PlanLine(const ViewLine& line, double z) {
   const double scale = line.plane.head<2>().norm();
   normal = line.plane.head<2>() / scale;

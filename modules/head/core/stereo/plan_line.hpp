@@ -7,6 +7,9 @@
 
 namespace priamos::head {
 
+/// Whether an image line may show a level edge: not one that is upright.
+bool IsLevel(const ViewLine& line);
+
 /// The plane of sight of an image line, cut at a height: for an edge that is level there, the line on which
 /// it lies in the floor plan; an upright edge lies on it at any height.
 struct PlanLine {

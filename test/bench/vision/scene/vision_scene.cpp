@@ -123,7 +123,10 @@ void BenchScene(const VisionOptions& options, Figures& figures) {
                                     head::MakeView(look.calibrated[1], seen[1])};
       const head::CameraView above = head::MakeView(look.calibrated[2], seen[2]);
       const double begin = CpuSeconds();
-      const auto objects = head::ReconstructScene(views, third ? &above : nullptr, {}).objects;
+      auto matches = head::MatchBinocular(views[0], views[1], {});
+      if (third)
+        std::ranges::move(head::MatchTrinocular(views[0], views[1], above, {}), std::back_inserter(matches));
+      const auto objects = head::ReconstructScene(views, matches, {}).objects;
       seconds += CpuSeconds() - begin;
       series.Judge(look, objects, options.verbose);
     }

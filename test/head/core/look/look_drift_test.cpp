@@ -53,7 +53,7 @@ class LookDriftTest : public testing::Test {
     fix_.verdict = verdict;
     fix_.base_from_landmark = kTruth;
     const StereoViews views{left_.View(), right_.View()};
-    return MeasureLookDrift(model_, fix_, views, {});
+    return MeasureLookDrift(model_, fix_, views, MatchBinocular(views[0], views[1], {}), {});
   }
 
   const LandmarkModel model_ = test::DoorModel();

@@ -10,7 +10,8 @@ namespace {
 using test::DrawnScene;
 
 std::vector<SceneObject> ObjectsOf(const DrawnScene& scene) {
-  return ReconstructScene(scene.Views(), nullptr, {}).objects;
+  const StereoViews views = scene.Views();
+  return ReconstructScene(views, scene.Matches(views), {}).objects;
 }
 
 TEST(SceneObjects, ABoxHasAFrontAndADepth) {
