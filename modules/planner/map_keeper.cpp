@@ -26,15 +26,18 @@ unsigned char Counted(std::int8_t value) {
 
 }  // namespace
 
-std::optional<SeenWall> FromMessage(int store, const feature_t& m) {
+std::optional<SeenFeature> FromMessage(int store, const feature_t& m) {
   constexpr double kMap_m = 100, kYaw = 3.15, kLeast_m = 0.05;
+  const bool is_point = m.kind == feature_t::POINT;
   const bool good = Within(store, 1, 65535) && Within(m.id, 0, 4095) &&
-                    (m.kind == feature_t::WALL || m.kind == feature_t::GONE) &&
+                    (is_point || m.kind == feature_t::WALL || m.kind == feature_t::GONE) &&
                     Within(m.x_m, -kMap_m, kMap_m) && Within(m.y_m, -kMap_m, kMap_m) &&
-                    Within(m.yaw_rad, -kYaw, kYaw) && Within(m.length_m, kLeast_m, 6.35) &&
+                    Within(m.yaw_rad, -kYaw, kYaw) && Within(m.length_m, is_point ? 0 : kLeast_m, 6.35) &&
                     Within(m.sigma_across_m, 0, 1.27) && Within(m.sigma_yaw_rad, 0, 0.255) &&
                     Within(m.rho, -1, 1) && Within(m.sigma_end_m, 0, 0.6) && m.utime_seen >= 0;
   if (!good) return std::nullopt;
+  const double seen_s = static_cast<double>(m.utime_seen) * 1e-6;
+  if (is_point) return SeenPoint{store, m.id, {m.x_m, m.y_m, m.sigma_across_m, seen_s}};
   SeenWall seen{store, m.id, m.kind == feature_t::GONE, {}};
   seen.wall.x_m = m.x_m;
   seen.wall.y_m = m.y_m;
@@ -44,7 +47,7 @@ std::optional<SeenWall> FromMessage(int store, const feature_t& m) {
   seen.wall.sigma_yaw_deg = Degrees(m.sigma_yaw_rad);
   seen.wall.rho = m.rho;
   seen.wall.sigma_end_m = m.sigma_end_m;
-  seen.wall.seen_s = static_cast<double>(m.utime_seen) * 1e-6;
+  seen.wall.seen_s = seen_s;
   return seen;
 }
 
@@ -153,6 +156,12 @@ void MapKeeper::Replace(LearnedWalls walls) {
   replaced_ = true;
 }
 
+bool MapKeeper::Take(const SeenFeature& seen) {
+  if (const auto* wall = std::get_if<SeenWall>(&seen)) return map_.Take(*wall);
+  map_.Take(std::get<SeenPoint>(seen));
+  return true;
+}
+
 bool MapKeeper::TakeFeatures() {
   bool changed = false;
   for (const features_t& message : features_.Drain()) {
@@ -162,7 +171,7 @@ bool MapKeeper::TakeFeatures() {
       good = good && seen;
       if (!seen) continue;
       told_.push_back(*seen);
-      changed = map_.Take(*seen) || changed;
+      changed = Take(*seen) || changed;
     }
     if (good) {
       acks_.Publish(batches_.Note(message.store, message.batch));

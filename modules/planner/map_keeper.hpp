@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "bus/context.hpp"
@@ -14,8 +15,11 @@
 
 namespace priamos::planner {
 
+/// What a robot tells in a feature.
+using SeenFeature = std::variant<SeenWall, SeenPoint>;
+
 /// A feature as the map takes it; nullopt when a number is not finite or outside its range.
-std::optional<SeenWall> FromMessage(int store, const feature_t& message);
+std::optional<SeenFeature> FromMessage(int store, const feature_t& message);
 
 /// A door as the map takes it; likewise.
 std::optional<LearnedDoor> FromMessage(const door_found_t& message);
@@ -45,13 +49,14 @@ class MapKeeper {
 
   /// Takes messages, and writes the file when it is time. Returns the map when it has changed.
   std::shared_ptr<const LearnedWalls> Tick(Time now);
-  /// The walls that came since the last call, as they were told.
-  std::vector<SeenWall> TakeTold() { return std::exchange(told_, {}); }
+  /// The features that came since the last call, as they were told.
+  std::vector<SeenFeature> TakeTold() { return std::exchange(told_, {}); }
   /// A mission has made the map anew: it is told to whoever listens.
   void Replace(LearnedWalls walls);
   std::shared_ptr<const LearnedWalls> walls() const { return std::make_shared<LearnedWalls>(map_.walls()); }
 
  private:
+  bool Take(const SeenFeature& seen);
   bool TakeFeatures();
   bool TakeDoors();
   bool TakeObjects();
@@ -65,7 +70,7 @@ class MapKeeper {
   LearnedMap map_;
   int written_ = 0;  ///< revision in the file
   std::optional<Time> wrote_;
-  std::vector<SeenWall> told_;
+  std::vector<SeenFeature> told_;
   bool greeted_ = false, complained_ = false;
   BatchLog batches_;
   bus::Inbox<features_t> features_;

@@ -41,7 +41,8 @@ PlannerApp::PlannerApp(const PlannerConfig& config, bus::Context& context, Missi
 void PlannerApp::Tick(Time now) {
   TakeReports(now);
   if (auto learned = map_.Tick(now)) missions_.OnLearned(std::move(learned));
-  for (const SeenWall& wall : map_.TakeTold()) missions_.OnTold(wall);
+  for (const SeenFeature& feature : map_.TakeTold())
+    std::visit([this](const auto& seen) { missions_.OnTold(seen); }, feature);
   TakeOrders(now);
   Send(agenda_.Tick(now), now);
   SendStatus(now);

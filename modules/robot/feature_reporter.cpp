@@ -15,7 +15,7 @@ constexpr double kMostLength_m = 6.35, kMostSigma_m = 1.27, kMostSigma_rad = 0.2
 feature_t ToMessage(const Feature& feature) {
   feature_t message{};
   message.id = static_cast<std::int16_t>(feature.id);
-  message.kind = feature_t::WALL;
+  message.kind = feature.IsPoint() ? feature_t::POINT : feature_t::WALL;
   message.utime_seen = ToUtime(feature.seen);
   message.x_m = feature.map_from_middle.x;
   message.y_m = feature.map_from_middle.y;
@@ -45,6 +45,7 @@ FeatureReporter::FeatureReporter(const RobotConfig& config, bus::Context& contex
       noise_(config.localiser.odometry.noise),
       context_(context),
       finder_(config.walls, noise_, config.drive.footprint),
+      points_(config.points),
       acks_(context.node().SubscribeAll(channels::kFeaturesAck)),
       features_(context.node().Advertise(channels::kFeatures)) {}
 
@@ -63,6 +64,8 @@ std::vector<const FoundSegment*> FeatureReporter::Hear(const SonarCycle& cycle, 
   if (!localiser.estimate()) return {};
   auto changed = finder_.Add(cycle, localiser.OdometryPoseAt(cycle.time));
   for (const FoundSegment* found : changed) Store(now).Note(*found, BaseBy(localiser));
+  for (const FoundPoint* found : points_.Add(finder_.unexplained(), cycle.time))
+    Store(now).Note(*found, BaseBy(localiser));
   return changed;
 }
 
@@ -75,7 +78,7 @@ void FeatureReporter::Tick(const Localiser& localiser, Time now) {
   lost_ = store_->lost();
   context_.Log(
       bus::Level::kWarning,
-      fmt::format("{} walls were given up before the planner had them: it has been silent for too long",
+      fmt::format("{} features were given up before the planner had them: it has been silent for too long",
                   lost_));
 }
 

@@ -14,7 +14,8 @@ namespace priamos::robot {
 
 features_t ToMessage(const FeatureBatch& batch);
 
-/// Finds walls in what the ring hears, and tells the planner of them until it has acknowledged each.
+/// Finds walls, corners and edges in what the ring hears, and tells the planner of them until it has
+/// acknowledged each.
 class FeatureReporter {
  public:
   FeatureReporter(const RobotConfig& config, bus::Context& context);
@@ -33,6 +34,7 @@ class FeatureReporter {
   OdometryNoise noise_;
   bus::Context& context_;
   SegmentFinder finder_;
+  PointFinder points_;
   std::optional<FeatureStore> store_;  ///< begins with the first cycle: its name is that time
   int lost_ = 0;
   bus::Inbox<features_ack_t> acks_;

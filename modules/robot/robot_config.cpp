@@ -14,6 +14,7 @@ void RobotConfig::Describe(Archive& a) {
   a.Section("localiser", localiser, "where the base is");
   a.Section("opening", opening, "when sonars show that an opening was passed");
   a.Section("walls", walls, "straight walls that the planner is told of");
+  a.Section("points", points, "corners and edges that the planner is told of");
   a.Section("features", features, "when it is told");
   a.Section("drive", drive, "how the base moves, and what stops it");
   // What can make the base unsafe moves to the careful side of the file only.

@@ -8,6 +8,7 @@
 #include "robot/core/motion/drive_controller.hpp"
 #include "robot/core/pose/localiser.hpp"
 #include "robot/core/sonar/opening_watch.hpp"
+#include "robot/core/sonar/point_finder.hpp"
 #include "robot/core/sonar/segment_finder.hpp"
 
 namespace priamos::robot {
@@ -23,6 +24,7 @@ struct RobotConfig {
   LocaliserConfig localiser;
   OpeningConfig opening;
   SegmentFinderConfig walls;
+  PointFinderConfig points;
   FeatureStoreConfig features;
   DriveConfig drive;
 

@@ -41,7 +41,9 @@ features_t Batch(int store, int batch, std::vector<feature_t> walls) {
 }
 
 TEST(FeatureMessage, AWallIsWhatItSays) {
-  const auto dut = FromMessage(9, Wall(4));
+  const auto seen = FromMessage(9, Wall(4));
+  ASSERT_TRUE(seen);
+  const auto* dut = std::get_if<SeenWall>(&*seen);
   ASSERT_TRUE(dut);
   EXPECT_EQ(dut->store, 9);
   EXPECT_EQ(dut->id, 4);
@@ -49,6 +51,21 @@ TEST(FeatureMessage, AWallIsWhatItSays) {
   EXPECT_NEAR(dut->wall.yaw_deg, Degrees(1.5), 1e-9);
   EXPECT_EQ(dut->wall.length_m, 1.5);
   EXPECT_EQ(dut->wall.seen_s, 1000);
+}
+
+TEST(FeatureMessage, APointIsOneWithoutLength) {
+  feature_t message = Wall(4);
+  message.kind = feature_t::POINT;
+  message.length_m = 0;
+  const auto seen = FromMessage(9, message);
+  ASSERT_TRUE(seen);
+  const auto* dut = std::get_if<SeenPoint>(&*seen);
+  ASSERT_TRUE(dut);
+  EXPECT_EQ(dut->id, 4);
+  EXPECT_EQ(dut->point.at(), Eigen::Vector2d(message.x_m, message.y_m));
+  EXPECT_EQ(dut->point.sigma_m, message.sigma_across_m);
+  message.x_m = 1e9;
+  EXPECT_FALSE(FromMessage(9, message));
 }
 
 TEST(FeatureMessage, NumbersOutOfRangeAreNoWall) {

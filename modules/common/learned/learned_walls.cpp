@@ -65,6 +65,8 @@ void LearnedWalls::Describe(Archive& a) {
   std::set<int> object_ids;
   for (const LearnedObject& object : objects)
     if (!object_ids.insert(object.id).second) a.Refuse("objects", "every thing with its own id");
+  a.List("points", points, "places that echo to all sides");
+  if (points.size() > kMostPoints) a.Refuse("points", "at most 1000 of them");
   if (objects.size() > kMostObjects) a.Refuse("objects", "at most 300 of them");
   if (doors.size() > static_cast<std::size_t>(kMostWalls)) a.Refuse("doors", "at most 100000 of them");
   if (walls.size() > static_cast<std::size_t>(kMostWalls)) a.Refuse("walls", "at most 100000 of them");

@@ -9,6 +9,7 @@
 #include "common/geometry.hpp"
 #include "common/learned/learned_door.hpp"
 #include "common/learned/learned_object.hpp"
+#include "common/learned/learned_point.hpp"
 #include "common/rectangle.hpp"
 
 namespace priamos {
@@ -48,6 +49,7 @@ struct LearnedWalls {
   std::vector<LearnedWall> walls;
   std::vector<LearnedDoor> doors;        ///< in the order in which they were found
   std::vector<LearnedObject> objects{};  ///< in the order in which they were told last
+  std::vector<LearnedPoint> points{};    ///< inner corners and edges
 
   void Describe(Archive& a);
 };

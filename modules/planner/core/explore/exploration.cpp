@@ -105,6 +105,13 @@ void Exploration::Learn(const LearnedWalls& walls, const std::vector<NamedObstac
   Forget();
 }
 
+LearnedWalls Exploration::WallsForWays() const {
+  LearnedWalls walls = SureParts(evidence_.walls);
+  for (const LearnedWall& piece : PresumedCorners(evidence_.walls, config_.grid.corner))
+    walls.walls.push_back(piece);
+  return walls;
+}
+
 bool Exploration::AddThing(Rectangle thing) {
   constexpr int kHalvings = 3;
   for (int i = 0; i < kHalvings && ClosesTrail(thing); ++i) thing.half_m /= 2;

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <optional>
 
-#include "planner/core/explore/presumed_corners.hpp"
-
 namespace priamos::planner {
 namespace {
 
@@ -34,7 +32,7 @@ void ExploredGridConfig::Describe(Archive& a) {
   a.Number("wall_reach_m", wall_reach_m,
            {"m", 0.7, 5, "what is before a wall that was told is seen from so far"});
   a.Number("facing_deg", facing_deg, {"deg", 5, 80, "and so far off the perpendicular of the wall"});
-  a.Number("corner_m", corner_m, {"m", 0, 2, "walls meet where no more than so much of either is missing"});
+  a.Section("corner", corner, "how much may be missing of walls to a corner");
 }
 
 ExploredGrid::ExploredGrid(const ExploredGridConfig& config, const ExploredEvidence& evidence) {
@@ -80,7 +78,7 @@ double ExploredGrid::free_m2() const {
 
 void ExploredGrid::Close(const ExploredGridConfig& config, const ExploredEvidence& evidence) {
   for (const LearnedWall& wall : evidence.walls.walls) CloseWall(wall, false);
-  for (const LearnedWall& piece : PresumedCorners(evidence.walls, config.corner_m)) CloseWall(piece, true);
+  for (const LearnedWall& piece : PresumedCorners(evidence.walls, config.corner)) CloseWall(piece, true);
   for (const auto* things : {&evidence.things, &evidence.seen})
     for (const Rectangle& thing : *things) CloseThing(thing);
 }

@@ -1,5 +1,6 @@
 #include "planner/core/explore/presumed_corners.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -12,6 +13,8 @@ using Eigen::Vector2d;
 constexpr double kAskew_rad = Radians(12);
 /// A wall that is told so much too long still ends in the corner.
 constexpr double kTooLong_m = 0.3;
+/// A corner that was heard lies so near to where the lines of its walls cross.
+constexpr double kSameCorner_m = 0.3;
 
 /// Where the line of another wall crosses a wall's, along it from its middle; nullopt: the room is not before
 /// both, or they are not perpendicular.
@@ -40,15 +43,27 @@ LearnedWall Continued(const LearnedWall& wall, double to_m) {
 
 }  // namespace
 
-std::vector<LearnedWall> PresumedCorners(const LearnedWalls& walls, double most_m) {
-  const auto meets = [&](double missing_m) { return missing_m >= -kTooLong_m && missing_m <= most_m; };
+void CornerConfig::Describe(Archive& a) {
+  a.Number("most_m", most_m, {"m", 0, 2, "walls meet where no more than so much of either is missing"});
+  a.Number("heard_m", heard_m, {"m", 0, 6, "or so much, where the corner itself was heard"});
+}
+
+std::vector<LearnedWall> PresumedCorners(const LearnedWalls& walls, const CornerConfig& config) {
+  const auto was_heard = [&](const Vector2d& corner) {
+    return std::any_of(walls.points.begin(), walls.points.end(), [&](const LearnedPoint& point) {
+      return (point.at() - corner).norm() < kSameCorner_m;
+    });
+  };
   std::vector<LearnedWall> pieces;
   for (const LearnedWall& wall : walls.walls)
     for (const LearnedWall& other : walls.walls) {
       const auto on_wall = CornerOn(wall, other), on_other = CornerOn(other, wall);
-      if (!on_wall || !on_other || !meets(MissingTo(*on_other, other))) continue;
+      if (!on_wall || !on_other) continue;
+      const double most_m = was_heard(wall.At(*on_wall)) ? config.heard_m : config.most_m;
+      const auto meets = [&](double missing_m) { return missing_m >= -kTooLong_m && missing_m <= most_m; };
       const double missing_m = MissingTo(*on_wall, wall);
-      if (missing_m > 0 && meets(missing_m)) pieces.push_back(Continued(wall, *on_wall));
+      if (missing_m > 0 && meets(missing_m) && meets(MissingTo(*on_other, other)))
+        pieces.push_back(Continued(wall, *on_wall));
     }
   return pieces;
 }

@@ -98,6 +98,14 @@ void FloorGraph::NoteWall(const SeenWall& seen) {
   told_[name] = told;
 }
 
+void FloorGraph::NotePoint(const SeenPoint& seen) {
+  if (keys_.empty()) return;
+  const int key = KeyAt(seen.point.seen_s);
+  const Vector2d in_key = keys_[std::size_t(key)].robot_frame_from_base.Inverse() * seen.point.at();
+  points_[{seen.store, seen.id}] = {key, in_key, seen.point};
+  changed_ = true;
+}
+
 bool FloorGraph::Settle() {
   constexpr int kMostJoins = 8;
   if (!std::exchange(changed_, false) || keys_.size() < 2) return false;
@@ -174,6 +182,10 @@ LearnedWalls FloorGraph::Walls() const {
   }
   for (const auto& [name, told] : told_)
     if (!IsOnLine(told)) add(told.wall, graph_.pose(told.key) * told.key_from_middle, told.wall.length_m);
+  for (const auto& [name, told] : points_) {
+    const Vector2d at = graph_.pose(told.key) * told.in_key;
+    EnterPoint({at.x(), at.y(), told.point.sigma_m, told.point.seen_s}, walls.points);
+  }
   return walls;
 }
 

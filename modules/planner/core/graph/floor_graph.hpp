@@ -54,6 +54,8 @@ class FloorGraph {
   void NoteAt(const Pose2& robot_frame_from_base, double at_s);
   /// A wall as the robot tells it, in its own frame. Nothing changes before the first pose.
   void NoteWall(const SeenWall& seen);
+  /// A corner or an edge, likewise. It ties nothing together.
+  void NotePoint(const SeenPoint& seen);
   /// Joins walls that are one, and adjusts everything. Returns whether anything came since the last time.
   bool Settle();
 
@@ -61,7 +63,7 @@ class FloorGraph {
   bool empty() const { return keys_.empty(); }
   /// The robot's frame in the map, as it is now (MAP_TO_ODOM of the design).
   Pose2 map_from_robot() const;
-  /// All walls that were told, where they lie by now.
+  /// All walls and points that were told, where they lie by now.
   LearnedWalls Walls() const;
   /// A place given in the map as it is now, and where it is later.
   GraphAnchor AnchorOf(const Pose2& map_from_place) const;
@@ -82,6 +84,11 @@ class FloorGraph {
     int key = 0, line = -1;  ///< no line: too short
     Pose2 key_from_middle;
     LearnedWall wall;
+  };
+  struct ToldPoint {
+    int key = 0;
+    Eigen::Vector2d in_key{0, 0};
+    LearnedPoint point;
   };
   struct Candidate {
     int kept = 0, gone = 0;
@@ -112,6 +119,7 @@ class FloorGraph {
   Key newest_;
   double driven_m_ = 0, turned_rad_ = 0;  ///< since the newest key
   std::map<Name, Told> told_;
+  std::map<Name, ToldPoint> points_;
   std::set<std::pair<int, int>> apart_;  ///< lines that are not one
   bool changed_ = false;
   int loops_ = 0, refused_ = 0;

@@ -81,6 +81,11 @@ bool LearnedMap::Take(const SeenWall& seen) {
   return true;
 }
 
+void LearnedMap::Take(const SeenPoint& seen) {
+  EnterPoint(seen.point, walls_.points);
+  ++walls_.revision;
+}
+
 bool LearnedMap::Take(const LearnedDoor& told) {
   if (!EnterDoor(told, walls_)) return false;
   if (walls_.doors.size() > static_cast<std::size_t>(config_.most))

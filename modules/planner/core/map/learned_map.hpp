@@ -31,6 +31,12 @@ struct SeenWall {
   LearnedWall wall;   ///< its own id and sightings mean nothing
 };
 
+/// A place that echoes to all sides, as a robot tells of it; likewise.
+struct SeenPoint {
+  int store = 0, id = 0;
+  LearnedPoint point;
+};
+
 /// The walls that robots found, in the map frame. What is told again under its number replaces what was told
 /// before. Walls that lie on each other, or follow each other, are one: their lines are joined by covariance
 /// intersection (Julier and Uhlmann), which is consistent whatever part of their errors they share, for
@@ -41,12 +47,14 @@ class LearnedMap {
 
   /// Takes what a robot tells. Returns whether the map is another one now.
   bool Take(const SeenWall& seen);
+  /// Takes what a robot tells of a point, see EnterPoint(): the map is another one then.
+  void Take(const SeenPoint& seen);
   /// Takes what a robot tells of a door, see EnterDoor(); likewise.
   bool Take(const LearnedDoor& told);
   /// Takes what a robot tells of a thing, see EnterObject(); likewise.
   bool Take(const LearnedObject& told) { return EnterObject(told, walls_); }
-  /// Holds these walls from now on, whatever robots told before. Doors stay, and things unless it brings
-  /// some.
+  /// Holds these walls and points from now on, whatever robots told before. Doors stay, and things unless it
+  /// brings some.
   void Replace(LearnedWalls walls);
   /// Forgets everything.
   void Reset();

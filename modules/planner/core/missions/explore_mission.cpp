@@ -7,8 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "planner/core/explore/passages.hpp"
-
 namespace priamos::planner {
 namespace {
 
@@ -120,11 +118,11 @@ void ExploreMission::Note(MissionControl& control) {
   if (!heard.pose) return;
   const bool begins = graph_.empty();
   graph_.NoteAt(heard.pose->map_from_base, SecondsOf(heard.pose->stamp));
-  if (begins && heard.learned)  // told before the order
-    for (const LearnedWall& wall : heard.learned->walls) graph_.NoteWall({kNoStore, wall.id, false, wall});
+  if (begins && heard.learned) NoteKnown(*heard.learned);
   NoteObjects(control);
   for (const SeenWall& seen : heard.told) graph_.NoteWall(seen);
-  if (!heard.told.empty() && graph_.Settle()) {
+  for (const SeenPoint& seen : heard.told_points) graph_.NotePoint(seen);
+  if (!(heard.told.empty() && heard.told_points.empty()) && graph_.Settle()) {
     std::vector<Pose2> trail;
     for (const GraphAnchor& anchor : trail_) trail.push_back(graph_.PlaceOf(anchor));
     exploration_.MoveTrail(trail);
@@ -134,6 +132,13 @@ void ExploreMission::Note(MissionControl& control) {
   }
   const Pose2 base = BaseOf(control);
   if (exploration_.NoteAt(base)) trail_.push_back(graph_.AnchorOf(base));
+}
+
+/// What was told before the order.
+void ExploreMission::NoteKnown(const LearnedWalls& known) {
+  int number = 0;
+  for (const LearnedWall& wall : known.walls) graph_.NoteWall({kNoStore, wall.id, false, wall});
+  for (const LearnedPoint& point : known.points) graph_.NotePoint({kNoStore, ++number, point});
 }
 
 void ExploreMission::NoteObjects(const MissionControl& control) {
@@ -167,7 +172,7 @@ void ExploreMission::Learn(const Pose2& base) {
   seen.objects = objects_.At(graph_);
   if (heard_) seen.doors = heard_->doors;
   exploration_.Learn(graph_.Walls(), ObstaclesOf(seen, drawn_, doors_));
-  planner_.Learn(SureParts(exploration_.walls()), base);
+  planner_.Learn(exploration_.WallsForWays(), base);
 }
 
 /// Returns whether there is one more on the map.

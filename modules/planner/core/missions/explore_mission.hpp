@@ -40,6 +40,7 @@ class ExploreMission : public Mission {
   /// How far the robot is with being told where it is.
   enum class Placing { kNo, kBrakes, kTold };
   void Note(MissionControl& control);
+  void NoteKnown(const LearnedWalls& known);
   void NoteObjects(const MissionControl& control);
   Pose2 BaseOf(const MissionControl& control) const;
   void Order(MissionControl& control, PlannedPath path);

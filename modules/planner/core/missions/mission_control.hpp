@@ -23,7 +23,8 @@ struct Heard {
   std::vector<LeafSighting> leaves;      ///< leaves of doors seen since the last time step, in order
   std::shared_ptr<const LearnedWalls> learned;  ///< walls that robots found; another object when they change
   std::vector<LookResult> looks;                ///< answers to looks since the last time step, in order
-  std::vector<SeenWall> told;  ///< walls that the robot told of since the last time step, in order
+  std::vector<SeenWall> told;          ///< walls that the robot told of since the last time step, in order
+  std::vector<SeenPoint> told_points;  ///< likewise corners and edges
 };
 
 /// A mission's view of the robot: its state, and the orders and the state that leave in this time

@@ -121,6 +121,7 @@ MissionActions MissionTable::Tick(Time now) {
   if (!idle || !running()) {
     control_.heard_.looks.clear();
     control_.heard_.told.clear();
+    control_.heard_.told_points.clear();
     control_.heard_.leaves.clear();
   }
   return std::exchange(control_.actions_, {});

@@ -61,6 +61,7 @@ class MissionTable {
   /// What contradicts the robot's pose; nullopt: nothing does.
   std::optional<std::string> WhyLost() const { return lost_.Why(control_.heard().pose); }
   void OnTold(const SeenWall& wall) { control_.heard_.told.push_back(wall); }
+  void OnTold(const SeenPoint& point) { control_.heard_.told_points.push_back(point); }
   /// Notes that the robot's pose was corrected at `stamp`: older poses are not used for planning any more.
   void OnCorrected(Time stamp);
   void OnLeaf(const LeafSighting& leaf) { control_.heard_.leaves.push_back(leaf); }

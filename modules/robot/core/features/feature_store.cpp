@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 namespace priamos::robot {
 namespace {
@@ -36,23 +37,36 @@ void FeatureStoreConfig::Describe(Archive& a) {
 FeatureStore::FeatureStore(const FeatureStoreConfig& config, const OdometryNoise& noise, int store)
     : config_(config), noise_(noise), store_(std::clamp(store, 1, kStores)) {}
 
-/// When all numbers are used up a new store begins: none ever names two walls.
 void FeatureStore::Note(const FoundSegment& found, const Whereabouts& heard_at) {
-  const int id = (found.number - 1) % kLastId + 1;
-  if (id == 1 && found.number > 1 && records_.contains(kLastId)) {
-    for (const auto& [number, record] : records_) lost_ += !record.acknowledged;
-    records_.clear();
-    store_ = store_ % kStores + 1;
-  }
-  records_[id].wall = HeardWallOf(found, heard_at);
+  Note({Kind::kWall, found.number}, HeardFeatureOf(found, heard_at));
+}
+
+void FeatureStore::Note(const FoundPoint& found, const Whereabouts& heard_at) {
+  Note({Kind::kPoint, found.number}, HeardFeatureOf(found, heard_at));
+}
+
+void FeatureStore::Note(const Name& name, HeardFeature heard) {
+  if (!ids_.contains(name) && last_id_ == kLastId) BeginAnew();
+  const auto [entry, is_new] = ids_.try_emplace(name, last_id_ + 1);
+  last_id_ += is_new;
+  records_[entry->second].heard = std::move(heard);
   MakeRoom();
+}
+
+/// When all ids are used up a new store begins: none ever names two features.
+void FeatureStore::BeginAnew() {
+  for (const auto& [id, record] : records_) lost_ += !record.acknowledged;
+  records_.clear();
+  ids_.clear();
+  last_id_ = 0;
+  store_ = store_ % kStores + 1;
 }
 
 void FeatureStore::MakeRoom() {
   while (records_.size() > static_cast<std::size_t>(config_.most)) {
     const auto oldest = std::min_element(records_.begin(), records_.end(), [](const auto& a, const auto& b) {
-      return std::tuple(!a.second.acknowledged, a.second.wall.heard) <
-             std::tuple(!b.second.acknowledged, b.second.wall.heard);
+      return std::tuple(!a.second.acknowledged, a.second.heard.heard) <
+             std::tuple(!b.second.acknowledged, b.second.heard.heard);
     });
     lost_ += !oldest->second.acknowledged;
     records_.erase(oldest);
@@ -67,7 +81,7 @@ std::optional<FeatureBatch> FeatureStore::Next(const Whereabouts& base, Time now
   };
   std::vector<Due> due;
   for (auto& [id, record] : records_) {
-    const Feature feature = InMap(id, record.wall, base, noise_);
+    const Feature feature = InMap(id, record.heard, base, noise_);
     if (IsDue(record, feature, now)) due.push_back({&record, feature});
   }
   if (due.empty()) return std::nullopt;
@@ -89,7 +103,7 @@ std::optional<FeatureBatch> FeatureStore::Next(const Whereabouts& base, Time now
   FeatureBatch batch{store_, batch_, {}};
   for (Due& d : due) {
     const bool grew = !Ended(*d.record, now);
-    *d.record = {d.record->wall, d.feature, now, batch_, grew, false};
+    *d.record = {d.record->heard, d.feature, now, batch_, grew, false};
     batch.features.push_back(d.feature);
   }
   return batch;
@@ -97,7 +111,7 @@ std::optional<FeatureBatch> FeatureStore::Next(const Whereabouts& base, Time now
 
 void FeatureStore::Acknowledge(int store, int batch, unsigned earlier) {
   if (store == 0) {
-    for (auto& [id, record] : records_) record = {.wall = record.wall};
+    for (auto& [id, record] : records_) record = {.heard = record.heard};
     return;
   }
   if (store != store_) return;
@@ -117,7 +131,9 @@ bool FeatureStore::Differs(const Record& record, const Feature& feature, Time no
   const Feature& told = *record.told;
   const Pose2 told_from_now = told.map_from_middle.Inverse() * feature.map_from_middle;
   const double grown_m = feature.length_m - told.length_m;
-  // Along the wall its middle moves when it grows.
+  if (feature.IsPoint() && told_from_now.translation().norm() > std::max(config_.moved_m, AcrossSigma(told)))
+    return true;
+  // Along a wall its middle moves when it grows.
   const double across_m = std::abs(told_from_now.y - told_from_now.x * std::sin(told_from_now.yaw));
   if (grown_m >= config_.grown_m) return true;
   if (record.grew && Ended(record, now) && grown_m >= kEndMoved_m) return true;
@@ -128,7 +144,7 @@ bool FeatureStore::Differs(const Record& record, const Feature& feature, Time no
 }
 
 bool FeatureStore::Ended(const Record& record, Time now) const {
-  return !record.wall.grows || Seconds(now - record.wall.heard) > config_.still_s;
+  return !record.heard.grows || Seconds(now - record.heard.heard) > config_.still_s;
 }
 
 }  // namespace priamos::robot

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "common/archive.hpp"
@@ -15,7 +16,7 @@ struct FeatureStoreConfig {
   double period_s = 4;      ///< between two batches
   double repeat_s = 15;     ///< a batch that is not acknowledged by then is told again
   double grown_m = 1.0;     ///< a wall that grew so much is told again
-  double moved_m = 0.04;    ///< so is one whose middle is so far beside what was told ...
+  double moved_m = 0.04;    ///< so is one whose middle, or a point, is so far beside what was told ...
   double turned_deg = 1.0;  ///< ... or that is turned so much
   double still_s = 3;       ///< a wall that was not heard for so long is told as it ended
   double again_s = 120;     ///< one that is heard again after so long as well
@@ -40,8 +41,9 @@ class FeatureStore {
   /// `store` names it, from 1; numbers of features mean nothing in another one.
   FeatureStore(const FeatureStoreConfig& config, const OdometryNoise& noise, int store);
 
-  /// Takes a segment that began or changed when the base was at `heard_at`.
+  /// Takes a segment or a point that began or changed when the base was at `heard_at`.
   void Note(const FoundSegment& found, const Whereabouts& heard_at);
+  void Note(const FoundPoint& found, const Whereabouts& heard_at);
   /// What is to be told now, when the time for a batch has come.
   std::optional<FeatureBatch> Next(const Whereabouts& base, Time now);
   /// The planner has batch `batch`, and of the eight before it those whose bit is set in `earlier` (bit 0:
@@ -54,13 +56,18 @@ class FeatureStore {
 
  private:
   struct Record {
-    HeardWall wall;
+    HeardFeature heard;
     std::optional<Feature> told{};  ///< as it was told last
     Time told_at{};
     int batch = -1;
     bool grew = true;  ///< at that time
     bool acknowledged = false;
   };
+  /// Walls and points have numbers of their own.
+  enum class Kind { kWall, kPoint };
+  using Name = std::pair<Kind, int>;
+  void Note(const Name& name, HeardFeature heard);
+  void BeginAnew();
   bool IsDue(const Record& record, const Feature& feature, Time now) const;
   bool Differs(const Record& record, const Feature& feature, Time now) const;
   bool Ended(const Record& record, Time now) const;
@@ -69,7 +76,9 @@ class FeatureStore {
   FeatureStoreConfig config_;
   OdometryNoise noise_;
   int store_, batch_ = 0, lost_ = 0;
-  std::map<int, Record> records_;  ///< by number
+  int last_id_ = 0;
+  std::map<Name, int> ids_;        ///< of what was noted, in this store
+  std::map<int, Record> records_;  ///< by id
   std::optional<Time> sent_;
 };
 

@@ -39,12 +39,12 @@ std::vector<const FoundSegment*> SegmentFinder::Add(const SonarCycle& cycle, con
   last_base_ = odom_from_base;
   Forget(cycle.time);
   std::vector<const FoundSegment*> changed;
-  const auto rest = Explain(NewEchoes(cycle, odom_from_base), cycle.time, changed);
-  for (const PlacedEcho& echo : rest) {
+  unexplained_ = Explain(NewEchoes(cycle, odom_from_base), cycle.time, changed);
+  for (const PlacedEcho& echo : unexplained_) {
     waiting_.push_back({cycle.time, echo});
     votes_.Add(echo);
   }
-  for (const PlacedEcho& echo : rest) {
+  for (const PlacedEcho& echo : unexplained_) {
     if (const FoundSegment* found = Begin(echo, cycle.time)) {
       changed.push_back(found);
       break;

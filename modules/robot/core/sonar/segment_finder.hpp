@@ -46,6 +46,8 @@ class SegmentFinder {
   std::vector<const FoundSegment*> Add(const SonarCycle& cycle, const Pose2& odom_from_base);
   /// The segments that still may grow, oldest first.
   const std::deque<FoundSegment>& segments() const { return segments_; }
+  /// The echoes of the last cycle that no segment takes, if they tell anything new.
+  const std::vector<PlacedEcho>& unexplained() const { return unexplained_; }
   /// How far the base has driven [m].
   double travel_m() const { return travel_m_; }
 
@@ -72,6 +74,7 @@ class SegmentFinder {
   double travel_m_ = 0;
   LineVotes votes_;
   std::deque<Waiting> waiting_;  ///< echoes that no wall explains, oldest first
+  std::vector<PlacedEcho> unexplained_;
   std::deque<FoundSegment> segments_;
   int last_number_ = 0;
 };

@@ -108,9 +108,9 @@ TEST_F(FeatureStoreTest, WhatWasToldGoesFirstWhenThereIsNoRoom) {
 }
 
 TEST_F(FeatureStoreTest, WhenAllNumbersAreUsedUpANewStoreBegins) {
-  for (int number = 4000; number <= 4095; ++number) Hear(number);
+  for (int number = 1; number <= FeatureStore::kLastId; ++number) Hear(number);
   Told(300, true);
-  Hear(4096);
+  Hear(FeatureStore::kLastId + 1);
   const auto batch = dut_.Next(Base(), now_ + FromSeconds(5));
   EXPECT_EQ(batch->store, 78);
   EXPECT_EQ(batch->features.at(0).id, 1);

@@ -9,8 +9,8 @@ namespace priamos::robot {
 namespace {
 
 /// A wall 1.5 m to the left of a base at the origin of the odometry, heard just before.
-HeardWall Wall(const Whereabouts& heard_at) {
-  HeardWall wall;
+HeardFeature Wall(const Whereabouts& heard_at) {
+  HeardFeature wall;
   wall.line = {.angle_rad = kPi / 2, .distance_m = 1.5};
   wall.line.covariance = Eigen::Vector2d(1e-5, 1e-5).asDiagonal();
   wall.from = {1, 1.5};

@@ -1,0 +1,119 @@
+#include "robot/core/sonar/point_finder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace priamos::robot {
+namespace {
+
+using Eigen::Vector2d;
+
+/// Of a place that is voted for it is known that it lies in a cell of 10 cm or beside it.
+constexpr double kVoted_m = 0.12;
+/// More echoes are not kept of one place, or of none: the newest ones count.
+constexpr std::size_t kMostOfOne = 60, kMostOfNone = 1200;
+
+}  // namespace
+
+void PointFinderConfig::Describe(Archive& a) {
+  a.Number("window_m", window_m, {"m", 0.5, 10, "an echo waits until the base has driven so far"});
+  a.Number("window_s", window_s, {"s", 1, 120, "or until this time has passed"});
+  a.Integer("votes", votes, {"-", 4, 200, "echoes through one place that are looked at closely"});
+  a.Number("gate_m", gate_m, {"m", 0.005, 0.3, "an echo so far off is one of a place that is known"});
+  a.Number("keep_m", keep_m, {"m", 0.5, 50, "a place takes no more when it was not heard for so far"});
+  a.Section("fit", fit, "which echoes are those of one place");
+}
+
+std::vector<const FoundPoint*> PointFinder::Add(std::span<const PlacedEcho> unexplained, Time now) {
+  std::vector<const FoundPoint*> changed;
+  if (!unexplained.empty()) Forget(now, unexplained.back().travel_m);
+  std::vector<PlacedEcho> rest;
+  for (const PlacedEcho& echo : unexplained)
+    if (!Grow(echo, now, changed)) rest.push_back(echo);
+  for (const PlacedEcho& echo : rest) {
+    waiting_.push_back({now, echo});
+    votes_.Add(echo);
+  }
+  if (const FoundPoint* found = Begin(rest, now)) changed.push_back(found);
+  return changed;
+}
+
+void PointFinder::Forget(Time now, double travel_m) {
+  while (!waiting_.empty() &&
+         (waiting_.size() > kMostOfNone || travel_m - waiting_.front().echo.travel_m > config_.window_m ||
+          now - waiting_.front().time > FromSeconds(config_.window_s))) {
+    votes_.Remove(waiting_.front().echo);
+    waiting_.pop_front();
+  }
+  std::erase_if(points_,
+                [&](const Point& point) { return travel_m - point.found.travel_m > config_.keep_m; });
+}
+
+/// Gives an echo to the newest place that takes it. Returns whether there is one.
+bool PointFinder::Grow(const PlacedEcho& echo, Time now, std::vector<const FoundPoint*>& changed) {
+  const auto takes = [&](const Point& point) {
+    return MayComeFrom(echo, point.found.fit.at, config_.gate_m, config_.fit);
+  };
+  const auto point = std::find_if(points_.rbegin(), points_.rend(), takes);
+  if (point == points_.rend()) return false;
+  point->echoes.push_back(echo);
+  if (point->echoes.size() > kMostOfOne) point->echoes.erase(point->echoes.begin());
+  point->found.heard = now;
+  point->found.travel_m = echo.travel_m;
+  // The newest echoes alone may come from one direction: what was known better before stays.
+  if (const auto fit = FitPoint(point->echoes, point->found.fit.at, config_.fit)) point->found.fit = *fit;
+  if (std::find(changed.begin(), changed.end(), &point->found) == changed.end())
+    changed.push_back(&point->found);
+  return true;
+}
+
+/// A place that begins with the newest echoes and those before them, where most arcs cross; nullptr: none
+/// does.
+const FoundPoint* PointFinder::Begin(std::span<const PlacedEcho> newest, Time now) {
+  VotedPlace voted;
+  for (const PlacedEcho& echo : newest)
+    if (const VotedPlace best = votes_.Best(echo); best.votes > voted.votes) voted = best;
+  if (voted.votes < config_.votes) return nullptr;
+  const Vector2d place = Refined(voted.at);
+  std::vector<PlacedEcho> echoes = Supporters(place, config_.gate_m);
+  const auto fit = FitPoint(echoes, place, config_.fit);
+  if (!fit) return nullptr;
+  Release(fit->at);
+  const PlacedEcho last = echoes.back();
+  const Vector2d off = fit->at - last.odom_from_base.translation();
+  points_.push_back(
+      {{++last_number_, now, *fit, std::atan2(off.y(), off.x()), last.travel_m}, std::move(echoes)});
+  return &points_.back().found;
+}
+
+/// Closer to the place that most echoes around a voted one agree on: outliers go step by step.
+Vector2d PointFinder::Refined(Vector2d place) const {
+  PointFitConfig rough = config_.fit;
+  rough.most_rms = std::numeric_limits<double>::infinity();
+  rough.line_factor = 0;
+  for (double gate_m = kVoted_m; gate_m > config_.gate_m; gate_m /= 2)
+    if (const auto fit = FitPoint(Supporters(place, gate_m), place, rough)) place = fit->at;
+  return place;
+}
+
+std::vector<PlacedEcho> PointFinder::Supporters(const Vector2d& place, double gate_m) const {
+  std::vector<PlacedEcho> echoes;
+  for (const Waiting& waiting : waiting_)
+    if (MayComeFrom(waiting.echo, place, gate_m, config_.fit)) echoes.push_back(waiting.echo);
+  if (echoes.size() > kMostOfOne) echoes.erase(echoes.begin(), echoes.end() - kMostOfOne);
+  return echoes;
+}
+
+/// What a place explains waits no more.
+void PointFinder::Release(const Vector2d& place) {
+  std::erase_if(waiting_, [&](const Waiting& waiting) {
+    if (!MayComeFrom(waiting.echo, place, config_.gate_m, config_.fit)) return false;
+    votes_.Remove(waiting.echo);
+    return true;
+  });
+}
+
+}  // namespace priamos::robot

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "common/time.hpp"
+#include "robot/core/sonar/arc_votes.hpp"
+#include "robot/core/sonar/point_fit.hpp"
+
+namespace priamos::robot {
+
+/// Which echoes count, and for how long.
+struct PointFinderConfig {
+  double window_m = 3;   ///< an echo is forgotten after the base has driven so far ...
+  double window_s = 30;  ///< ... or after this time
+  int votes = 14;        ///< echoes through one place that are looked at closely
+  double gate_m = 0.03;  ///< an echo so far off is one of a place that is known
+  double keep_m = 6;     ///< a place takes no more after the base has driven so far without hearing it
+  PointFitConfig fit;
+
+  void Describe(Archive& a);
+};
+
+/// A place that echoes to all sides, and when it was heard last.
+struct FoundPoint {
+  int number = 0;  ///< from 1; stays when it is known better
+  Time heard{};
+  PointFit fit;
+  double facing_rad = 0;  ///< direction from the base to it when it was found, frame of the odometry
+  double travel_m = 0;    ///< how far the base had driven when it was heard last
+};
+
+/// Finds inner corners and edges from the echoes of the moving ring that no wall explains: where the arcs of
+/// enough of them cross a place is fitted, and what is surely one (FitPoint) is told. From then on it gets
+/// better by every echo.
+class PointFinder {
+ public:
+  explicit PointFinder(const PointFinderConfig& config) : config_(config) {}
+
+  /// Takes the echoes of a cycle that no wall explains. Returns the places that began or changed.
+  std::vector<const FoundPoint*> Add(std::span<const PlacedEcho> unexplained, Time now);
+
+ private:
+  struct Waiting {
+    Time time{};
+    PlacedEcho echo;
+  };
+  struct Point {
+    FoundPoint found;
+    std::vector<PlacedEcho> echoes;
+  };
+  void Forget(Time now, double travel_m);
+  bool Grow(const PlacedEcho& echo, Time now, std::vector<const FoundPoint*>& changed);
+  const FoundPoint* Begin(std::span<const PlacedEcho> newest, Time now);
+  Eigen::Vector2d Refined(Eigen::Vector2d place) const;
+  std::vector<PlacedEcho> Supporters(const Eigen::Vector2d& place, double gate_m) const;
+  void Release(const Eigen::Vector2d& place);
+
+  PointFinderConfig config_;
+  ArcVotes votes_;
+  std::deque<Waiting> waiting_;  ///< oldest first
+  std::deque<Point> points_;
+  int last_number_ = 0;
+};
+
+}  // namespace priamos::robot
