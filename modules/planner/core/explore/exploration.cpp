@@ -23,6 +23,8 @@ constexpr double kSamePlace_m = 0.5;
 constexpr double kHeard_m = 0.25;
 /// What is so near to a place that was given up is given up as well.
 constexpr double kGivenUp_m = 0.6;
+/// A point is as broad, for ways.
+constexpr double kPoint_m = 0.02;
 /// A way that is no longer than this times, and this more than, the one over what is free is worth it.
 constexpr double kDetour = 2, kDetour_m = 3;
 /// The unknown so near to the way from a frontier to the goal beyond it may be driven over.
@@ -99,6 +101,10 @@ std::size_t Exploration::Here() const {
 
 void Exploration::Learn(const LearnedWalls& walls, const std::vector<NamedObstacle>& seen) {
   evidence_.walls = WithoutPassages(WithoutEdges(walls), evidence_.trail, clearance_m_ + 2 * kRaster_m);
+  // Where it was is nothing.
+  std::erase_if(evidence_.walls.points, [&](const LearnedPoint& point) {
+    return ClosesTrail({{point.x_m, point.y_m, 0}, {0, 0}});
+  });
   evidence_.seen.clear();
   for (const NamedObstacle& thing : seen)
     if (!ClosesTrail(thing.shape)) evidence_.seen.push_back(thing.shape);
@@ -144,7 +150,9 @@ bool Exploration::Knows(const Vector2d& heard) const {
     return DistanceToSegment(wall.from(), wall.to(), heard) < kHeard_m;
   };
   const auto is_thing = [&](const Rectangle& thing) { return Distance(thing, heard) < kHeard_m; };
+  const auto is_point = [&](const LearnedPoint& point) { return (point.at() - heard).norm() < kHeard_m; };
   return std::any_of(evidence_.walls.walls.begin(), evidence_.walls.walls.end(), is_wall) ||
+         std::any_of(evidence_.walls.points.begin(), evidence_.walls.points.end(), is_point) ||
          std::any_of(evidence_.things.begin(), evidence_.things.end(), is_thing) ||
          std::any_of(evidence_.seen.begin(), evidence_.seen.end(), is_thing);
 }
@@ -264,6 +272,8 @@ std::vector<NamedObstacle> Exploration::ObstaclesFor(const FrontierGoal& goal) {
   for (std::size_t i = known_.size(); i < evidence_.things.size(); ++i)
     obstacles.push_back({"what stopped the robot", evidence_.things[i]});
   for (const Rectangle& thing : evidence_.seen) obstacles.push_back({"a thing that the head saw", thing});
+  for (const LearnedPoint& point : evidence_.walls.points)
+    obstacles.push_back({"a corner or an edge", {{point.x_m, point.y_m, 0}, {kPoint_m, kPoint_m}}});
   return obstacles;
 }
 

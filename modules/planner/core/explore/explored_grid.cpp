@@ -81,6 +81,7 @@ void ExploredGrid::Close(const ExploredGridConfig& config, const ExploredEvidenc
   for (const LearnedWall& piece : PresumedCorners(evidence.walls, config.corner)) CloseWall(piece, true);
   for (const auto* things : {&evidence.things, &evidence.seen})
     for (const Rectangle& thing : *things) CloseThing(thing);
+  for (const LearnedPoint& point : evidence.walls.points) CloseThing({{point.x_m, point.y_m, 0}, {0, 0}});
 }
 
 /// One that is presumed is doubtful as a whole.

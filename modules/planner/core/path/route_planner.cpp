@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "planner/core/path/route_search.hpp"
@@ -15,6 +16,9 @@ namespace {
 constexpr double kSlim = 0.6;
 /// Share of the easy margin that straight lines keep.
 constexpr double kLines = 0.9;
+/// A route that is longer than the straight line times this, and this more, may be a long way round; one that is
+/// shorter by this factor is then better.
+constexpr double kRoundabout = 1.5, kAround_m = 3;
 /// Length of the last line to the goal, which has no leeway.
 constexpr double kExact_m = 0.6;
 /// Floor over which a route is looked for at most: a search keeps 40 kB of each square metre.
@@ -128,26 +132,40 @@ Outcome<PlannedPath> RoutePlanner::Plan(const Pose2& map_from_start, const Goal&
   return NoWay(map_from_start, goal);
 }
 
+/// A route with less room around it is taken when one with more is a long way round.
 std::optional<PlannedPath> RoutePlanner::FindPath(const Pose2& map_from_start, const Goal& goal) const {
   if (CheckEnds(map_from_start, goal)) return std::nullopt;
+  const double middle_m = (config_.easy_margin_m + config_.least_margin_m) / 2;
+  const double straight_m = (goal.map_from_base.translation() - map_from_start.translation()).norm();
+  std::optional<PlannedPath> best;
+  double best_m = std::numeric_limits<double>::infinity();
+  for (const double margin_m : {config_.easy_margin_m, middle_m, config_.least_margin_m}) {
+    auto path = FindPath(map_from_start, goal, margin_m);
+    if (!path) continue;
+    const double length_m = LengthOf(map_from_start, path->points);
+    if (kRoundabout * length_m < best_m) best_m = length_m, best = std::move(path);
+    if (best_m <= kRoundabout * straight_m + kAround_m) break;
+  }
+  return best;
+}
+
+std::optional<PlannedPath> RoutePlanner::FindPath(const Pose2& map_from_start, const Goal& goal,
+                                                  double wanted_m) const {
   const double start_gap_m = space_.At(map_from_start).distance_m;
   const double goal_gap_m = goal.turn ? space_.At(goal.map_from_base).distance_m : config_.easy_margin_m;
-  const double middle_m = (config_.easy_margin_m + config_.least_margin_m) / 2;
-  for (const double wanted_m : {config_.easy_margin_m, middle_m, config_.least_margin_m}) {
-    const double margin_m = std::min(wanted_m, goal_gap_m);
-    const auto route = SearchRoute(space_, {.start = map_from_start,
-                                            .goal = goal.map_from_base,
-                                            .turn = goal.turn,
-                                            .margin_m = margin_m,
-                                            .leaving_m = LeavingMargin(margin_m, start_gap_m),
-                                            .turn_m = config_.turn_m,
-                                            .sideways = config_.sideways,
-                                            .most_poses = config_.most_poses});
-    // Lines that had to keep as much as the lattice would have a corner wherever that is all there is.
-    const double lines_m = std::max(std::min(margin_m, config_.least_margin_m), kLines * margin_m);
-    if (route) return PathAlong(map_from_start, Straightened(*route, lines_m));
-  }
-  return std::nullopt;
+  const double margin_m = std::min(wanted_m, goal_gap_m);
+  const auto route = SearchRoute(space_, {.start = map_from_start,
+                                          .goal = goal.map_from_base,
+                                          .turn = goal.turn,
+                                          .margin_m = margin_m,
+                                          .leaving_m = LeavingMargin(margin_m, start_gap_m),
+                                          .turn_m = config_.turn_m,
+                                          .sideways = config_.sideways,
+                                          .most_poses = config_.most_poses});
+  if (!route) return std::nullopt;
+  // Lines that had to keep as much as the lattice would have a corner wherever that is all there is.
+  const double lines_m = std::max(std::min(margin_m, config_.least_margin_m), kLines * margin_m);
+  return PathAlong(map_from_start, Straightened(*route, lines_m));
 }
 
 /// One wall far away makes all between it and the robot part of the search.

@@ -60,6 +60,7 @@ class RoutePlanner {
   std::optional<Refusal> CheckEnds(const Pose2& start, const Goal& goal) const;
 
  private:
+  std::optional<PlannedPath> FindPath(const Pose2& map_from_start, const Goal& goal, double wanted_m) const;
   void Rebuild();
   void EraseUnder(const Pose2& map_from_base, std::vector<NamedObstacle>& obstacles) const;
   std::vector<Pose2> Straightened(const std::vector<Pose2>& route, double margin_m) const;

@@ -93,7 +93,7 @@ const FoundPoint* PointFinder::Begin(std::span<const PlacedEcho> newest, Time no
 Vector2d PointFinder::Refined(Vector2d place) const {
   PointFitConfig rough = config_.fit;
   rough.most_rms = std::numeric_limits<double>::infinity();
-  rough.line_factor = 0;
+  rough.surplus = -std::numeric_limits<double>::infinity();
   for (double gate_m = kVoted_m; gate_m > config_.gate_m; gate_m /= 2)
     if (const auto fit = FitPoint(Supporters(place, gate_m), place, rough)) place = fit->at;
   return place;

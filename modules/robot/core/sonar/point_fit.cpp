@@ -9,29 +9,67 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// One step of Gauss and Newton.
-struct Step {
-  Vector2d change{0, 0};
-  Eigen::Matrix2d cofactors = Eigen::Matrix2d::Identity();  ///< covariance for residuals of variance 1
-  double squares = 0;                                       ///< of the residuals before it, in their sigmas
+/// One step of Gauss and Newton for two unknowns.
+class Step {
+ public:
+  /// A residual of one sigma, and how it follows the unknowns.
+  void Add(const Vector2d& by, double residual) {
+    information_ += by * by.transpose();
+    right_ += by * residual;
+    squares_ += residual * residual;
+  }
+  Vector2d Change() const { return Cofactors() * right_; }
+  /// Covariance for residuals of variance 1.
+  Eigen::Matrix2d Cofactors() const { return information_.inverse(); }
+  /// Of the residuals before the step.
+  double squares() const { return squares_; }
+
+ private:
+  Eigen::Matrix2d information_ = Eigen::Matrix2d::Zero();
+  Vector2d right_{0, 0};
+  double squares_ = 0;
 };
 
-Step StepOf(const std::vector<PlacedEcho>& echoes, const Vector2d& place, const PointFitConfig& config) {
-  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
-  Vector2d right(0, 0);
+constexpr int kSteps = 4;
+/// A fit that ends so far from where it began has lost its way.
+constexpr double kFarOff_m = 1;
+
+Step PointStep(const std::vector<PlacedEcho>& echoes, const Vector2d& place, const RangeNoise& noise) {
   Step step;
   for (const PlacedEcho& echo : echoes) {
     const Vector2d off = place - echo.odom_from_sonar.translation();
-    const double distance_m = off.norm(), weight = 1 / config.SigmaOf(echo.range_m);
-    const Vector2d by_place = weight * off / distance_m;
-    const double residual = weight * (echo.range_m - distance_m);
-    information += by_place * by_place.transpose();
-    right += by_place * residual;
-    step.squares += residual * residual;
+    const double weight = 1 / noise.SigmaOf(echo.range_m);
+    step.Add(weight * off.normalized(), weight * (echo.range_m - off.norm()));
   }
-  step.cofactors = information.inverse();
-  step.change = step.cofactors * right;
   return step;
+}
+
+/// The line through `place + beyond_m * normal` which sees all echoes perpendicularly.
+Step LineStep(const std::vector<PlacedEcho>& echoes, const Vector2d& place, double angle_rad, double beyond_m,
+              const RangeNoise& noise) {
+  const Vector2d normal(std::cos(angle_rad), std::sin(angle_rad)), along(-normal.y(), normal.x());
+  Step step;
+  for (const PlacedEcho& echo : echoes) {
+    const Vector2d off = place - echo.odom_from_sonar.translation();
+    const double weight = 1 / noise.SigmaOf(echo.range_m);
+    step.Add(weight * Vector2d(along.dot(off), 1), weight * (echo.range_m - normal.dot(off) - beyond_m));
+  }
+  return step;
+}
+
+/// Squares of the residuals that the best place leaves, which becomes `place`.
+double FindPlace(const std::vector<PlacedEcho>& echoes, Vector2d& place, const RangeNoise& noise) {
+  for (int i = 0; i < kSteps; ++i) place += PointStep(echoes, place, noise).Change();
+  return PointStep(echoes, place, noise).squares();
+}
+
+/// Squares of the residuals that the best line leaves.
+double SquaresOfLine(const std::vector<PlacedEcho>& echoes, const Vector2d& place, const RangeNoise& noise) {
+  Vector2d towards(0, 0);
+  for (const PlacedEcho& echo : echoes) towards += place - echo.odom_from_sonar.translation();
+  Vector2d line(std::atan2(towards.y(), towards.x()), 0);  // angle, beyond the place
+  for (int i = 0; i < kSteps; ++i) line += LineStep(echoes, place, line.x(), line.y(), noise).Change();
+  return LineStep(echoes, place, line.x(), line.y(), noise).squares();
 }
 
 /// The angle at a place within which it was heard [rad].
@@ -49,35 +87,6 @@ double SpreadOf(const std::vector<PlacedEcho>& echoes, const Vector2d& place) {
   return high - low;
 }
 
-/// The squares of the residuals, in their sigmas, that are left by the line which sees all echoes
-/// perpendicularly.
-double SquaresOfLine(const std::vector<PlacedEcho>& echoes, const Vector2d& place,
-                     const PointFitConfig& config) {
-  constexpr int kLineSteps = 3;
-  Vector2d towards(0, 0);
-  for (const PlacedEcho& echo : echoes) towards += place - echo.odom_from_sonar.translation();
-  double angle = std::atan2(towards.y(), towards.x()), beyond_m = 0, squares = 0;
-  for (int i = 0; i <= kLineSteps; ++i) {
-    const Vector2d normal(std::cos(angle), std::sin(angle)), along(-normal.y(), normal.x());
-    Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
-    Vector2d right(0, 0);
-    squares = 0;
-    for (const PlacedEcho& echo : echoes) {
-      const Vector2d off = place - echo.odom_from_sonar.translation();
-      const double weight = 1 / config.SigmaOf(echo.range_m);
-      const Vector2d by_line = weight * Vector2d(along.dot(off), 1);
-      const double residual = weight * (echo.range_m - normal.dot(off) - beyond_m);
-      information += by_line * by_line.transpose();
-      right += by_line * residual;
-      squares += residual * residual;
-    }
-    const Vector2d change = information.inverse() * right;
-    angle += change.x();
-    beyond_m += change.y();
-  }
-  return squares;
-}
-
 }  // namespace
 
 void PointFitConfig::Describe(Archive& a) {
@@ -85,10 +94,9 @@ void PointFitConfig::Describe(Archive& a) {
   a.Number("spread_deg", spread_deg, {"deg", 5, 180, "from directions that differ so much"});
   a.Number("off_axis_deg", off_axis_deg, {"deg", 3, 30, "so far off the axis of a sensor it is heard"});
   a.Number("most_rms", most_rms, {"-", 1, 10, "largest RMS of the residuals, in sigmas of a range"});
-  a.Number("line_factor", line_factor,
-           {"-", 1, 100, "a wall leaves so many times the squares of the residuals"});
-  a.Number("range_sigma_m", range_sigma_m, {"m", 0.001, 0.1, "noise and rounding of a range, sigma"});
-  a.Number("range_sigma_per_m", range_sigma_per_m, {"-", 0, 0.1, "growth of the noise with the range"});
+  a.Number("surplus", surplus, {"-", 0, 1000, "a wall explains them so much worse, in variances"});
+  a.Number("range_sigma_m", noise.sigma_m, {"m", 0.001, 0.1, "noise and rounding of a range, sigma"});
+  a.Number("range_sigma_per_m", noise.sigma_per_m, {"-", 0, 0.1, "growth of the noise with the range"});
 }
 
 bool MayComeFrom(const PlacedEcho& echo, const Vector2d& place, double gate_m, const PointFitConfig& config) {
@@ -97,24 +105,25 @@ bool MayComeFrom(const PlacedEcho& echo, const Vector2d& place, double gate_m, c
          std::abs(std::atan2(there.y(), there.x())) < Radians(config.off_axis_deg);
 }
 
+double PointOverLine(const std::vector<PlacedEcho>& echoes, const Vector2d& near, const RangeNoise& noise) {
+  Vector2d place = near;
+  const double of_point = FindPlace(echoes, place, noise), of_line = SquaresOfLine(echoes, place, noise);
+  const double variance = std::max(1.0, std::min(of_point, of_line) / static_cast<double>(echoes.size()));
+  return (of_line - of_point) / variance;
+}
+
 std::optional<PointFit> FitPoint(const std::vector<PlacedEcho>& echoes, const Vector2d& near,
                                  const PointFitConfig& config) {
-  constexpr int kSteps = 4;
   if (static_cast<int>(echoes.size()) < config.least_echoes) return std::nullopt;
   Vector2d place = near;
-  Step step;
-  for (int i = 0; i < kSteps; ++i) {
-    step = StepOf(echoes, place, config);
-    // Written so that NaN is refused.
-    if (!(step.change.norm() < 1)) return std::nullopt;
-    place += step.change;
-  }
-  const double variance = step.squares / static_cast<double>(echoes.size());
-  if (variance > config.most_rms * config.most_rms) return std::nullopt;
-  if (SpreadOf(echoes, place) < Radians(config.spread_deg)) return std::nullopt;
+  const double squares = FindPlace(echoes, place, config.noise);
+  const double variance = squares / static_cast<double>(echoes.size());
   // Written so that NaN is refused.
-  if (!(SquaresOfLine(echoes, place, config) > config.line_factor * step.squares)) return std::nullopt;
-  return PointFit{place, std::max(1.0, variance) * step.cofactors};
+  if (!((place - near).norm() < kFarOff_m && variance <= config.most_rms * config.most_rms))
+    return std::nullopt;
+  if (SpreadOf(echoes, place) < Radians(config.spread_deg)) return std::nullopt;
+  if (!(PointOverLine(echoes, place, config.noise) > config.surplus)) return std::nullopt;
+  return PointFit{place, std::max(1.0, variance) * PointStep(echoes, place, config.noise).Cofactors()};
 }
 
 }  // namespace priamos::robot

@@ -8,18 +8,23 @@
 
 namespace priamos::robot {
 
+/// Noise and rounding of a range, sigma; it grows with the range.
+struct RangeNoise {
+  double sigma_m = 0.005, sigma_per_m = 0.003;
+
+  double SigmaOf(double range_m) const { return sigma_m + sigma_per_m * range_m; }
+};
+
 /// When echoes are those of one place.
 struct PointFitConfig {
   int least_echoes = 10;
   double spread_deg = 30;        ///< the place was heard from directions that differ so much at least
   double off_axis_deg = 15;      ///< so far off the axis of a sensor it is heard
   double most_rms = 2;           ///< largest RMS of the residuals, in sigmas of a range
-  double line_factor = 4;        ///< a wall leaves so many times the squares of the residuals
-  double range_sigma_m = 0.005;  ///< noise and rounding of a range, sigma; grows with the range
-  double range_sigma_per_m = 0.003;
+  double surplus = 16;           ///< a wall explains them so much worse, see PointOverLine()
+  RangeNoise noise{};
 
   void Describe(Archive& a);
-  double SigmaOf(double range_m) const { return range_sigma_m + range_sigma_per_m * range_m; }
 };
 
 /// A place that echoes to all sides.
@@ -31,6 +36,12 @@ struct PointFit {
 /// Whether an echo may have come from a place, `gate_m` off in its range at most.
 bool MayComeFrom(const PlacedEcho& echo, const Eigen::Vector2d& place, double gate_m,
                  const PointFitConfig& config);
+
+/// How much better a place near `near` explains echoes than a straight wall before which it lies does: difference of
+/// the sums of squared residuals, in variances of a range as the better of both shows it. Negative: the wall does.
+/// NaN when echoes tell neither.
+double PointOverLine(const std::vector<PlacedEcho>& echoes, const Eigen::Vector2d& near,
+                     const RangeNoise& noise);
 
 /// The place that the echoes have their ranges to, by least squares from `near` on; nullopt when it is none:
 /// a wall is heard from one direction only, and the ranges to a round thing do not meet. The covariance

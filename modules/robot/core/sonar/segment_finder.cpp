@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "robot/core/sonar/point_fit.hpp"
+
 namespace priamos::robot {
 namespace {
 
@@ -20,6 +22,7 @@ void SegmentFinderConfig::Describe(Archive& a) {
   a.Number("moved_m", moved_m, {"m", 0.005, 0.2, "a sensor that has not moved so far tells nothing new"});
   a.Number("turned_deg", turned_deg, {"deg", 0.2, 15, "unless it has turned so much"});
   a.Integer("votes", votes, {"-", 6, 200, "echoes on one line that are looked at closely"});
+  a.Number("surplus", surplus, {"-", 0, 1000, "a point explains them so much worse, in variances"});
   a.Number("least_m", least_m, {"m", 0.2, 3, "least length of a new segment"});
   a.Number("gap_m", gap_m, {"m", 0.05, 2, "echoes farther apart are not of one wall"});
   a.Number("keep_m", keep_m, {"m", 0.5, 50, "a segment grows no more when it was not heard for so far"});
@@ -114,11 +117,21 @@ const FoundSegment* SegmentFinder::Begin(const PlacedEcho& newest, Time time) {
   if (!FitWall(series, config_.segment.range)) return nullptr;
   const auto fitted = FitSegment(echoes, line.angle_rad, config_.segment, noise_);
   if (!fitted) return nullptr;
+  if (!IsRatherALine(echoes, line.angle_rad)) return nullptr;
   WallSegment wall(config_.segment, noise_, echoes, *fitted);
   if (wall.length_m() < config_.least_m) return nullptr;
   Release(wall);
   segments_.push_back({++last_number_, time, std::move(wall)});
   return &segments_.back();
+}
+
+/// Whether a corner or an edge, heard on a part of its arc, surely explains the echoes worse.
+bool SegmentFinder::IsRatherALine(const std::vector<PlacedEcho>& echoes, double angle_rad) const {
+  const Eigen::Vector2d normal(std::cos(angle_rad), std::sin(angle_rad));
+  Eigen::Vector2d middle(0, 0);
+  for (const PlacedEcho& echo : echoes) middle += echo.Foot(normal) / static_cast<double>(echoes.size());
+  const WallFitConfig& range = config_.segment.range;
+  return PointOverLine(echoes, middle, {range.range_sigma_m, range.range_sigma_per_m}) < -config_.surplus;
 }
 
 /// The echoes near a line whose feet lie together with that of the newest echo, in order of time.

@@ -21,6 +21,7 @@ struct SegmentFinderConfig {
   double turned_deg = 1.5;  ///< ... or turned so much tells nothing new
   int votes = 12;           ///< echoes on one line that are looked at closely
   double least_m = 0.6;     ///< length of a new segment
+  double surplus = 9;       ///< a point explains its echoes so much worse, see PointOverLine()
   double gap_m = 0.35;      ///< echoes farther apart are not of one wall
   double keep_m = 6;        ///< a segment grows no more after the base has driven so far without hearing it
   WallSegmentConfig segment;
@@ -62,6 +63,7 @@ class SegmentFinder {
   void Forget(Time now);
   const FoundSegment* Begin(const PlacedEcho& echo, Time time);
   std::vector<PlacedEcho> Supporters(const VotedLine& line, const PlacedEcho& newest) const;
+  bool IsRatherALine(const std::vector<PlacedEcho>& echoes, double angle_rad) const;
   void Release(const WallSegment& wall);
 
   SegmentFinderConfig config_;
