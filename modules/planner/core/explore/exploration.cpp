@@ -113,7 +113,7 @@ void Exploration::Learn(const LearnedWalls& walls, const std::vector<NamedObstac
 
 LearnedWalls Exploration::WallsForWays() const {
   LearnedWalls walls = SureParts(evidence_.walls);
-  for (const LearnedWall& piece : PresumedCorners(evidence_.walls, config_.grid.corner))
+  for (const LearnedWall& piece : PresumedWalls(evidence_.walls, evidence_.trail, config_.grid.presumed))
     walls.walls.push_back(piece);
   return walls;
 }

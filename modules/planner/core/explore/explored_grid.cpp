@@ -32,7 +32,7 @@ void ExploredGridConfig::Describe(Archive& a) {
   a.Number("wall_reach_m", wall_reach_m,
            {"m", 0.7, 5, "what is before a wall that was told is seen from so far"});
   a.Number("facing_deg", facing_deg, {"deg", 5, 80, "and so far off the perpendicular of the wall"});
-  a.Section("corner", corner, "how much may be missing of walls to a corner");
+  a.Section("presumed", presumed, "where walls go on although nobody told so");
 }
 
 ExploredGrid::ExploredGrid(const ExploredGridConfig& config, const ExploredEvidence& evidence) {
@@ -78,7 +78,8 @@ double ExploredGrid::free_m2() const {
 
 void ExploredGrid::Close(const ExploredGridConfig& config, const ExploredEvidence& evidence) {
   for (const LearnedWall& wall : evidence.walls.walls) CloseWall(wall, false);
-  for (const LearnedWall& piece : PresumedCorners(evidence.walls, config.corner)) CloseWall(piece, true);
+  for (const LearnedWall& piece : PresumedWalls(evidence.walls, evidence.trail, config.presumed))
+    CloseWall(piece, true);
   for (const auto* things : {&evidence.things, &evidence.seen})
     for (const Rectangle& thing : *things) CloseThing(thing);
   for (const LearnedPoint& point : evidence.walls.points) CloseThing({{point.x_m, point.y_m, 0}, {0, 0}});

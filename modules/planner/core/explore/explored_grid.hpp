@@ -8,7 +8,7 @@
 #include "common/archive.hpp"
 #include "common/learned/learned_walls.hpp"
 #include "common/rectangle.hpp"
-#include "planner/core/explore/presumed_corners.hpp"
+#include "planner/core/explore/presumed_walls.hpp"
 
 namespace priamos::planner {
 
@@ -17,7 +17,7 @@ struct ExploredGridConfig {
   double near_m = 1.3;        ///< so far around the base centre, as far as no wall is in between
   double wall_reach_m = 3.0;  ///< and up to a wall that was told, which bounds what is free, if it is nearer
   double facing_deg = 40;     ///< and faces the base: so far is the line to it off its perpendicular
-  CornerConfig corner{};      ///< how much may be missing of walls to a corner
+  PresumedWallConfig presumed{};  ///< where walls go on although nobody told so
 
   void Describe(Archive& a);
 };

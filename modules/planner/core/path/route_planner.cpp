@@ -16,8 +16,8 @@ namespace {
 constexpr double kSlim = 0.6;
 /// Share of the easy margin that straight lines keep.
 constexpr double kLines = 0.9;
-/// A route that is longer than the straight line times this, and this more, may be a long way round; one that is
-/// shorter by this factor is then better.
+/// A route that is longer than the straight line times this, and this more, may be a long way round; one that
+/// is shorter by this factor is then better.
 constexpr double kRoundabout = 1.5, kAround_m = 3;
 /// Length of the last line to the goal, which has no leeway.
 constexpr double kExact_m = 0.6;

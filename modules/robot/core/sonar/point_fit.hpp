@@ -18,10 +18,10 @@ struct RangeNoise {
 /// When echoes are those of one place.
 struct PointFitConfig {
   int least_echoes = 10;
-  double spread_deg = 30;        ///< the place was heard from directions that differ so much at least
-  double off_axis_deg = 15;      ///< so far off the axis of a sensor it is heard
-  double most_rms = 2;           ///< largest RMS of the residuals, in sigmas of a range
-  double surplus = 16;           ///< a wall explains them so much worse, see PointOverLine()
+  double spread_deg = 30;    ///< the place was heard from directions that differ so much at least
+  double off_axis_deg = 15;  ///< so far off the axis of a sensor it is heard
+  double most_rms = 2;       ///< largest RMS of the residuals, in sigmas of a range
+  double surplus = 16;       ///< a wall explains them so much worse, see PointOverLine()
   RangeNoise noise{};
 
   void Describe(Archive& a);
@@ -37,9 +37,9 @@ struct PointFit {
 bool MayComeFrom(const PlacedEcho& echo, const Eigen::Vector2d& place, double gate_m,
                  const PointFitConfig& config);
 
-/// How much better a place near `near` explains echoes than a straight wall before which it lies does: difference of
-/// the sums of squared residuals, in variances of a range as the better of both shows it. Negative: the wall does.
-/// NaN when echoes tell neither.
+/// How much better a place near `near` explains echoes than a straight wall before which it lies does:
+/// difference of the sums of squared residuals, in variances of a range as the better of both shows it.
+/// Negative: the wall does. NaN when echoes tell neither.
 double PointOverLine(const std::vector<PlacedEcho>& echoes, const Eigen::Vector2d& near,
                      const RangeNoise& noise);
 
