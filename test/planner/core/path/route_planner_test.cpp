@@ -45,6 +45,18 @@ TEST(RoutePlannerTest, WhereTheEasyMarginLeadsNowhereTheLeastOneDoes) {
   EXPECT_GE(path->min_gap_m, 0.1 - 1e-3);
 }
 
+TEST(RoutePlannerTest, AWideWayThatIsALongWayRoundIsNotTaken) {
+  GroundPlan plan;
+  plan.walls = {{"outer", {-2, -2}, {22, -2}, 0.1}, {"outer", {-2, 10}, {22, 10}, 0.1},
+                {"outer", {-2, -2}, {-2, 10}, 0.1}, {"outer", {22, -2}, {22, 10}, 0.1},
+                {"screen", {0.8, 3}, {20, 3}, 0.1}, {"screen", {-2, 3}, {-0.4, 3}, 0.1}};  // 1.2 m are left
+  const Pose2 start{0.2, 0, kPi / 2};
+  const auto path = PlannerOf(plan).Plan(start, {{0.2, 6, kPi / 2}});
+  ASSERT_TRUE(path) << path.reason();
+  EXPECT_LT(LengthOf(start, path->points), 8) << "and not around the end of the screen, 40 m";
+  EXPECT_GE(path->min_gap_m, 0.1 - 1e-3);
+}
+
 TEST(RoutePlannerTest, AMapThatIsTooLargeIsRefusedBeforeItIsSearched) {
   GroundPlan plan = ShippedPlan();
   plan.walls.push_back({"wall of another building", {400, 400}, {404, 400}, 0.1});
