@@ -41,7 +41,10 @@ HeardWalls::HeardWalls(const cli::TrueWorld& world, const cli::TrueFloor& floor,
 }
 
 void HeardWalls::HearFrom(const Vector2d& at, double driven_m) {
-  for (Face& face : faces_) Hear(face, at, driven_m);
+  for (Face& face : faces_) {
+    Hear(face, at, driven_m);
+    HearEnds(face, at);
+  }
   if (driven_m < next_m_) return;
   auto due = DueAfter(driven_m);
   if (due.empty()) return;
@@ -61,6 +64,15 @@ void HeardWalls::Hear(Face& face, const Vector2d& at, double driven_m) const {
   const int end =
       std::min(static_cast<int>(face.heard_m.size()), static_cast<int>((x + half_m) / kCell_m) + 1);
   for (int i = first; i < end; ++i) face.heard_m[std::size_t(i)] = driven_m;
+}
+
+/// The corner of two faces is heard once.
+void HeardWalls::HearEnds(const Face& face, const Vector2d& at) {
+  constexpr double kHearsEdge_m = 2, kBefore_m = 0.08;
+  for (const Vector2d& end : {face.from, Vector2d(face.from + face.length_m * face.along)})
+    if ((end - at).norm() <= kHearsEdge_m && face.out.dot(at - end) > 0 &&
+        !IsHidden(at, end + kBefore_m * face.out))
+      EnterPoint({end.x(), end.y(), 0.02, 0}, points_);
 }
 
 bool HeardWalls::IsHidden(const Vector2d& from, const Vector2d& to) const {

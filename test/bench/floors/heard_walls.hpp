@@ -14,7 +14,8 @@ namespace priamos::bench {
 
 /// What a base tells of the walls of a true floor, by a rule in place of sonars: a face is heard where the
 /// base is before it, told once 0.8 m of it are and again when 1 m more are or nothing more comes, two walls
-/// every 1.2 m driven, up to 3 cm beside its place and up to 20 cm too long.
+/// every 1.2 m driven, up to 3 cm beside its place and up to 20 cm too long. Corners and edges are told as soon as they
+/// are in sight, 2 m away or nearer.
 class HeardWalls {
  public:
   HeardWalls(const cli::TrueWorld& world, const cli::TrueFloor& floor, std::uint64_t seed);
@@ -22,7 +23,7 @@ class HeardWalls {
   /// The base is here, map frame, after so many metres.
   void HearFrom(const Eigen::Vector2d& at, double driven_m);
   /// All that was told.
-  LearnedWalls Told() const { return {LearnedWalls::kVersion, revision_, told_, {}}; }
+  LearnedWalls Told() const { return {LearnedWalls::kVersion, revision_, told_, {}, {}, points_}; }
 
  private:
   struct Face {
@@ -35,6 +36,7 @@ class HeardWalls {
     std::size_t face;
     int first, last, grown;
   };
+  void HearEnds(const Face& face, const Eigen::Vector2d& at);
   void Hear(Face& face, const Eigen::Vector2d& at, double driven_m) const;
   bool IsSolid(const Eigen::Vector2d& at) const;
   bool IsHidden(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
@@ -46,6 +48,7 @@ class HeardWalls {
   std::vector<Face> faces_;
   std::vector<bool> solid_;
   std::vector<LearnedWall> told_;
+  std::vector<LearnedPoint> points_;
   std::vector<int> cells_told_;                             ///< of each wall that was told
   std::map<std::pair<std::size_t, int>, std::size_t> ids_;  ///< face and first cell -> place in told_
   Rng rng_;

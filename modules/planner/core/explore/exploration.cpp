@@ -168,6 +168,7 @@ bool Exploration::TryAgain() {
   evidence_.things = known_;
   things_from_.clear();
   Forget();
+  again_from_m2_ = grid().free_m2();
   return true;
 }
 

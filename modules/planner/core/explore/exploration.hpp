@@ -85,8 +85,8 @@ class Exploration {
   void GiveUp(const Eigen::Vector2d& target, std::string reason, bool for_good = false);
 
   /// Forgets what stopped the base and what was given up, but for good: a thing is known by one side only,
-  /// and may have been a person. From then on only frontiers with much behind them count, for the way that
-  /// leads to them, and each is tried once. False: there is nothing to forget.
+  /// and may have been a person. From then on, until a room has been seen, only frontiers with much behind them
+  /// count, for the way that leads to them, and each is tried once. False: there is nothing to forget.
   bool TryAgain();
   bool again() const { return again_; }  ///< whether it was done
 
@@ -156,7 +156,8 @@ class Exploration {
   std::optional<PossibleFloor> possible_;  ///< of the grid
   std::optional<Eigen::Vector2d> last_;
   double driven_m_ = 0;
-  bool again_ = false;  ///< what was given up is tried again
+  bool again_ = false;        ///< what was given up is tried again
+  double again_from_m2_ = 0;  ///< what was seen when that began
 };
 
 }  // namespace priamos::planner

@@ -17,11 +17,15 @@ using Eigen::Vector2i;
 
 /// In which direction a frontier leads is seen from what is unknown so near.
 constexpr int kOutwardCells = 5;
+/// A round that has seen so much more has found a room.
+constexpr double kRoom_m2 = 5;
 
 }  // namespace
 
 std::optional<FrontierGoal> Exploration::Choose(const Pose2& map_from_base) {
   left_.clear();
+  // A room that was missed is looked at as all others were.
+  if (again_ && grid().free_m2() > again_from_m2_ + kRoom_m2) again_ = false;
   const GridWays ways(grid(), map_from_base.translation(), clearance_m_);
   possible();
   std::vector<Candidate> candidates;

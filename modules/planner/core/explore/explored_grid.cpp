@@ -54,6 +54,8 @@ ExploredGrid::ExploredGrid(const ExploredGridConfig& config, const ExploredEvide
     last = *at;
   }
   for (const LearnedWall& wall : evidence.walls.walls) OpenToWall(config, wall, evidence.trail);
+  // In the way, but too thin to hide what is behind.
+  for (const LearnedPoint& point : evidence.walls.points) CloseThing({{point.x_m, point.y_m, 0}, {0, 0}});
   OpenWhereItWas(evidence.trail);
 }
 
@@ -82,7 +84,6 @@ void ExploredGrid::Close(const ExploredGridConfig& config, const ExploredEvidenc
     CloseWall(piece, true);
   for (const auto* things : {&evidence.things, &evidence.seen})
     for (const Rectangle& thing : *things) CloseThing(thing);
-  for (const LearnedPoint& point : evidence.walls.points) CloseThing({{point.x_m, point.y_m, 0}, {0, 0}});
 }
 
 /// One that is presumed is doubtful as a whole.

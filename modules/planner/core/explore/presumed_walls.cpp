@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "common/geometry.hpp"
+
 namespace priamos::planner {
 namespace {
 
@@ -16,6 +18,8 @@ constexpr double kTooLong_m = 0.3;
 /// A corner that was heard lies so near to where the lines of its walls cross, an edge to the end of its
 /// wall.
 constexpr double kSameCorner_m = 0.3, kSameEdge_m = 0.4;
+/// Where the middle of a base was nothing is so near.
+constexpr double kBody_m = 0.4;
 
 /// Where the line of another wall crosses a wall's, along it from its middle; nullopt: the room is not before
 /// both, or they are not perpendicular.
@@ -50,8 +54,8 @@ class WallEnds {
 
   /// How far a wall goes on at most, towards where the line of another one crosses its own.
   double MostToCorner_m(const LearnedWall& wall, double corner_m) const {
-    if (WasHeard(wall.At(corner_m), kSameCorner_m)) return config_.heard_m;
-    return GoesOn(wall, corner_m) ? std::max(config_.corner_m, config_.unheard_m) : config_.corner_m;
+    if (!GoesOn(wall, corner_m)) return config_.corner_m;
+    return WasHeard(wall.At(corner_m), kSameCorner_m) ? config_.heard_m : config_.unheard_m;
   }
   /// Whether the base drove past the end of a wall on that side and heard no edge there.
   bool GoesOn(const LearnedWall& wall, double side) const {
@@ -61,6 +65,12 @@ class WallEnds {
       return (at - end).norm() < config_.passed_m && (from_map * at).y() > 0;
     };
     return !WasHeard(end, kSameEdge_m) && std::any_of(trail_.begin(), trail_.end(), passed);
+  }
+  /// Whether the base was there, which nothing can be then.
+  bool WasPassed(const LearnedWall& piece) const {
+    const Vector2d from = piece.from(), to = piece.to();
+    return std::any_of(trail_.begin(), trail_.end(),
+                       [&](const Vector2d& at) { return DistanceToSegment(from, to, at) < kBody_m; });
   }
 
  private:
@@ -102,19 +112,22 @@ std::optional<LearnedWall> ToNext(const LearnedWall& wall, const LearnedWall& ne
 
 void PresumedWallConfig::Describe(Archive& a) {
   a.Number("corner_m", corner_m, {"m", 0, 2, "walls meet where no more than so much of either is missing"});
-  a.Number("heard_m", heard_m, {"m", 0, 6, "or so much, where the corner itself was heard"});
   a.Number("passed_m", passed_m, {"m", 0, 5, "so near to the end of a wall an edge would be heard"});
-  a.Number("unheard_m", unheard_m, {"m", 0, 6, "so far a wall goes on where none was"});
+  a.Number("heard_m", heard_m, {"m", 0, 6, "where none was the wall goes on so far to a corner that was heard"});
+  a.Number("unheard_m", unheard_m, {"m", 0, 6, "or so far to another wall"});
 }
 
 std::vector<LearnedWall> PresumedWalls(const LearnedWalls& walls, const std::vector<Vector2d>& trail,
                                        const PresumedWallConfig& config) {
   const WallEnds ends(walls, trail, config);
   std::vector<LearnedWall> pieces;
+  const auto take = [&](const std::optional<LearnedWall>& piece) {
+    if (piece && !ends.WasPassed(*piece)) pieces.push_back(*piece);
+  };
   for (const LearnedWall& wall : walls.walls)
     for (const LearnedWall& other : walls.walls) {
-      if (const auto piece = ToCorner(wall, other, ends)) pieces.push_back(*piece);
-      if (const auto piece = ToNext(wall, other, ends, config.unheard_m)) pieces.push_back(*piece);
+      take(ToCorner(wall, other, ends));
+      take(ToNext(wall, other, ends, config.unheard_m));
     }
   return pieces;
 }

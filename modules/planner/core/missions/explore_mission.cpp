@@ -85,6 +85,7 @@ std::optional<Refusal> ExploreMission::Start(const MissionOrder& /*order*/) {
   backing_ = false;
   stopped_at_.reset();
   stopped_by_.reset();
+  in_the_way_.clear();
   stops_here_ = 0;
   undecided_ = false;
   return std::nullopt;
@@ -205,7 +206,8 @@ void ExploreMission::Reconsider(MissionControl& control) {
   for (Pose2& point : left) point = graph_.map_from_robot() * point;
   const Pose2& told = control.heard().pose->map_from_base;
   const bool moved = ((ordered_by_ * told).translation() - base.translation()).norm() > kMoved_m;
-  if (moved || !exploration_.IsOpen(*goal_) || !planner_.AreFree(base, left)) Next(control);
+  in_the_way_ = planner_.InTheWay(base, left);
+  if (moved || !exploration_.IsOpen(*goal_) || !in_the_way_.empty()) Next(control);
 }
 
 void ExploreMission::Arrive(MissionControl& control) {
@@ -305,7 +307,9 @@ bool ExploreMission::GoBack(MissionControl& control, double length_m) {
   backing_ = true;
   progress_.ResetIdle();
   Order(control, std::move(way));
-  control.Enter(Phase::kDriving, "exploring: something is near, going back a bit");
+  control.Enter(Phase::kDriving, fmt::format("exploring: {} is near, going back a bit",
+                                             in_the_way_.empty() ? "something" : in_the_way_));
+  in_the_way_.clear();
   return true;
 }
 

@@ -83,6 +83,7 @@ class ExploreMission : public Mission {
   bool backing_ = false;                       ///< on the way back, to no frontier
   std::optional<Eigen::Vector2d> stopped_at_;  ///< where something stopped the base last
   std::optional<Eigen::Vector2d> stopped_by_;  ///< and what that was
+  std::string in_the_way_;                     ///< of the path being driven; empty: nothing
   int stops_here_ = 0;                         ///< in a row at one place, after the first
   bool undecided_ = false;                     ///< no way was found yet
   std::optional<Time> considered_;             ///< whether goal_ is still a frontier

@@ -253,7 +253,9 @@ std::vector<std::pair<int, int>> DrawFloor() {
 
 RC_GTEST_PROP(ExplorationTest, OfAnyFloorEverythingIsSeenAndItEnds, ()) {
   IdealFloor floor(DrawFloor());
-  Exploration dut({}, kWidth_m, {});
+  ExplorationConfig config;
+  config.grid.near_m = config.sight_m;  // what was in sight is not driven to
+  Exploration dut(config, kWidth_m, {});
   RC_ASSERT(Explore(dut, floor) < 400);
   const double covered = floor.Covered(dut.grid());
   if (covered < 0.98) RC_LOG() << "covered " << covered << "\n";

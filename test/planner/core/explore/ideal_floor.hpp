@@ -12,16 +12,18 @@
 namespace priamos::planner {
 
 /// A floor of squares of 2 m, and a base that hears perfectly what it passes: a piece of wall is told when
-/// the base is before it, 2.5 m away at most. Where the base is led into a wall it stops before it.
+/// the base is before it, 2.5 m away at most, a corner or an edge when it is in sight, 2 m away at most. Where the base is led into a wall it stops before it.
 class IdealFloor {
  public:
-  static constexpr double kSquare_m = 2, kPiece_m = 1, kHears_m = 2.5, kNeeds_m = 0.49, kCell_m = 0.1;
+  static constexpr double kSquare_m = 2, kPiece_m = 1, kHears_m = 2.5, kHearsEdge_m = 2, kNeeds_m = 0.49, kCell_m = 0.1;
 
   /// The base begins in the middle of the first square.
   explicit IdealFloor(std::vector<std::pair<int, int>> squares)
       : squares_(squares.begin(), squares.end()),
         base_{kSquare_m * (squares.front().first + 0.5), kSquare_m * (squares.front().second + 0.5), 0} {
     for (const auto& [x, y] : squares_) {
+      for (const Corner& corner : {Corner{x, y}, {x + 1, y}, {x, y + 1}, {x + 1, y + 1}})
+        if (IsCorner(corner)) silent_corners_.insert(corner);
       Side(x, y - 1, {x, y}, {x + 1, y});
       Side(x + 1, y, {x + 1, y}, {x + 1, y + 1});
       Side(x, y + 1, {x + 1, y + 1}, {x, y + 1});
@@ -56,11 +58,16 @@ class IdealFloor {
   double driven_m() const { return driven_m_; }
   /// Tells what a base hears there.
   void HearFrom(const Eigen::Vector2d& base) {
+    std::erase_if(silent_corners_, [&](const Corner& corner) {
+      const Eigen::Vector2d at(kSquare_m * corner.first, kSquare_m * corner.second);
+      if ((at - base).norm() > kHearsEdge_m || !Sees(base, at)) return false;
+      told_.points.push_back({at.x(), at.y(), 0.02, 0});
+      return true;
+    });
     std::erase_if(silent_, [&](const LearnedWall& wall) {
       const Eigen::Vector2d from = wall.map_from_wall().Inverse() * base;
       if (std::abs(from.x()) > kPiece_m / 2 + 0.1 || from.y() < 0 || from.y() > kHears_m) return false;
-      for (double part = 0.05; part < 0.95; part += 0.05)
-        if (!Holds(base + part * (wall.At(0) - base))) return false;
+      if (!Sees(base, wall.At(0))) return false;
       told_.walls.push_back(wall);
       ++told_.revision;
       return true;
@@ -83,6 +90,18 @@ class IdealFloor {
  private:
   using Corner = std::pair<int, int>;
 
+  bool Sees(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+    for (double part = 0.05; part < 0.95; part += 0.05)
+      if (!Holds(from + part * (to - from))) return false;
+    return true;
+  }
+  /// Whether walls meet there at an angle.
+  bool IsCorner(const Corner& corner) const {
+    const auto [x, y] = corner;
+    const bool a = squares_.contains({x - 1, y - 1}), b = squares_.contains({x, y - 1}),
+               c = squares_.contains({x - 1, y}), d = squares_.contains({x, y});
+    return (a != b || c != d) && (a != c || b != d);
+  }
   /// A wall with the floor to its left, in pieces, unless the floor goes on there.
   void Side(int x, int y, const Corner& from, const Corner& to) {
     if (squares_.contains({x, y})) return;
@@ -123,6 +142,7 @@ class IdealFloor {
   std::set<Corner> squares_;
   Pose2 base_;
   std::vector<LearnedWall> silent_;
+  std::set<Corner> silent_corners_;
   LearnedWalls told_;
   double driven_m_ = 0;
 };

@@ -37,16 +37,25 @@ TEST(PresumedWallsTest, ThroughMoreTheBaseMayFit) {
 }
 
 TEST(PresumedWallsTest, WhereTheCornerWasHeardMoreMayBeMissing) {
-  LearnedWalls walls = Corner(1.8, 1.2);
+  LearnedWalls walls = Corner(2.2, 1.2);
+  const std::vector<Eigen::Vector2d> past{{1.2, 1.2}, {1.8, 1.2}};
+  EXPECT_THAT(PresumedWalls(walls, past, kConfig), IsEmpty());
   walls.points = {{3.1, -0.1, 0.02, 0}};
-  EXPECT_THAT(PresumedWalls(walls, {}, kConfig), SizeIs(2));
-  walls.points = {{2.2, 0, 0.02, 0}};  // an edge elsewhere
-  EXPECT_THAT(PresumedWalls(walls, {}, kConfig), IsEmpty());
+  EXPECT_THAT(PresumedWalls(walls, past, kConfig), SizeIs(2));
+  EXPECT_THAT(PresumedWalls(walls, {}, kConfig), IsEmpty()) << "nobody was near the ends";
+  walls.points.push_back({0.8, 0.1, 0.02, 0});
+  EXPECT_THAT(PresumedWalls(walls, past, kConfig), IsEmpty()) << "an opening between it and the corner";
+}
+
+TEST(PresumedWallsTest, WhereTheBaseWasIsNoWall) {
+  const LearnedWalls walls = Corner(1.4, 0.2);
+  const std::vector<Eigen::Vector2d> through{{2.3, 0.6}, {2.3, 0}, {2.3, -0.6}};
+  EXPECT_THAT(PresumedWalls(walls, through, kConfig), SizeIs(1));
 }
 
 TEST(PresumedWallsTest, AWallWhoseEndWasPassedAndIsNoEdgeGoesOn) {
   LearnedWalls walls = Corner(1.4, 0.2);
-  const std::vector<Eigen::Vector2d> past{{1.6, 1}}, far{{0, 2.5}}, behind{{1.6, -1}};
+  const std::vector<Eigen::Vector2d> past{{1.6, 1}}, far{{0, 2.9}}, behind{{1.6, -1}};
   ASSERT_THAT(PresumedWalls(walls, past, kConfig), SizeIs(2));
   EXPECT_NEAR(PresumedWalls(walls, past, kConfig)[0].length_m, 1.4, 1e-9);
   EXPECT_THAT(PresumedWalls(walls, far, kConfig), IsEmpty());
