@@ -23,7 +23,7 @@ constexpr double kSamePlace_m = 0.5;
 constexpr double kHeard_m = 0.25;
 /// What is so near to a place that was given up is given up as well.
 constexpr double kGivenUp_m = 0.6;
-/// A point is as broad, for ways.
+/// A corner or an edge is taken for half as broad.
 constexpr double kPoint_m = 0.02;
 /// A way that is no longer than this times, and this more than, the one over what is free is worth it.
 constexpr double kDetour = 2, kDetour_m = 3;
@@ -101,10 +101,10 @@ std::size_t Exploration::Here() const {
 
 void Exploration::Learn(const LearnedWalls& walls, const std::vector<NamedObstacle>& seen) {
   evidence_.walls = WithoutPassages(WithoutEdges(walls), evidence_.trail, clearance_m_ + 2 * kRaster_m);
-  // Where it was is nothing.
-  std::erase_if(evidence_.walls.points, [&](const LearnedPoint& point) {
-    return ClosesTrail({{point.x_m, point.y_m, 0}, {0, 0}});
-  });
+  evidence_.edges.clear();
+  for (const LearnedPoint& point : walls.points)
+    if (const Rectangle edge{{point.x_m, point.y_m, 0}, {kPoint_m, kPoint_m}}; !ClosesTrail(edge))
+      evidence_.edges.push_back(edge);
   evidence_.seen.clear();
   for (const NamedObstacle& thing : seen)
     if (!ClosesTrail(thing.shape)) evidence_.seen.push_back(thing.shape);
@@ -273,8 +273,7 @@ std::vector<NamedObstacle> Exploration::ObstaclesFor(const FrontierGoal& goal) {
   for (std::size_t i = known_.size(); i < evidence_.things.size(); ++i)
     obstacles.push_back({"what stopped the robot", evidence_.things[i]});
   for (const Rectangle& thing : evidence_.seen) obstacles.push_back({"a thing that the head saw", thing});
-  for (const LearnedPoint& point : evidence_.walls.points)
-    obstacles.push_back({"a corner or an edge", {{point.x_m, point.y_m, 0}, {kPoint_m, kPoint_m}}});
+  for (const Rectangle& edge : evidence_.edges) obstacles.push_back({"a corner or an edge", edge});
   return obstacles;
 }
 

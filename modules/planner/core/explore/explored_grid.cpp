@@ -55,7 +55,7 @@ ExploredGrid::ExploredGrid(const ExploredGridConfig& config, const ExploredEvide
   }
   for (const LearnedWall& wall : evidence.walls.walls) OpenToWall(config, wall, evidence.trail);
   // In the way, but too thin to hide what is behind.
-  for (const LearnedPoint& point : evidence.walls.points) CloseThing({{point.x_m, point.y_m, 0}, {0, 0}});
+  for (const Rectangle& edge : evidence.edges) CloseThing(edge);
   OpenWhereItWas(evidence.trail);
 }
 
