@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "common/geometry.hpp"
@@ -46,6 +47,8 @@ void ExplorationConfig::Describe(Archive& a) {
            {"m2", 0, 100, "where less can be behind it nothing is looked at again"});
   a.Number("gain_m2_per_m", gain_m2_per_m,
            {"m2/m", 0, 7, "nor where less is for each metre of the way there"});
+  a.Number("again_m", again_m, {"m", 0, 1000, "a round over what was left costs so much at most"});
+  a.Number("again_share", again_share, {"-", 0, 10, "and this share of what was driven before"});
   a.Number("beyond_m", beyond_m, {"m", 0, 3, "so far into the unknown the base drives"});
   a.Number("farthest_m", farthest_m, {"m", 5, 90, "what lies farther from the start is left"});
   a.Section("grid", grid, "what counts as seen");
@@ -169,6 +172,7 @@ bool Exploration::TryAgain() {
   things_from_.clear();
   Forget();
   again_from_m2_ = grid().free_m2();
+  again_from_m_ = driven_m_;
   return true;
 }
 
@@ -221,6 +225,12 @@ const PossibleFloor& Exploration::possible() {
 double Exploration::LeastGain_m2(double way_m) const {
   if (!again_) return config_.least_gain_m2;
   return std::max({config_.least_gain_m2, config_.again_gain_m2, config_.gain_m2_per_m * way_m});
+}
+
+/// What is left of the cost of this round: by then most borders that are left lead nowhere.
+double Exploration::MostWay_m() const {
+  if (!again_) return std::numeric_limits<double>::infinity();
+  return config_.again_m + config_.again_share * again_from_m_ - (driven_m_ - again_from_m_);
 }
 
 /// A base that keeps more room around itself than the cells take for enough may have to go around much.

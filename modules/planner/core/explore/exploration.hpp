@@ -31,6 +31,8 @@ struct ExplorationConfig {
   double least_gain_m2 = 0.8;  ///< a frontier with less possible floor in sight is left unseen
   double again_gain_m2 = 3.0;  ///< nor is one tried again that leads to less in all ...
   double gain_m2_per_m = 1.0;  ///< ... or to less for each metre of the way to it
+  double again_m = 10;         ///< a round over what was left costs no more than this ...
+  double again_share = 0.25;   ///< ... and this share of what was driven before, unless it finds a room
   double beyond_m = 1.0;       ///< the base drives so far into the unknown, as far as nothing is known there
   double farthest_m = 80;      ///< from where it began; what lies beyond is left
 
@@ -86,7 +88,7 @@ class Exploration {
 
   /// Forgets what stopped the base and what was given up, but for good: a thing is known by one side only,
   /// and may have been a person. From then on, until a room has been seen, only frontiers with much behind them
-  /// count, for the way that leads to them, and each is tried once. False: there is nothing to forget.
+  /// count, for the way that leads to them, and each is tried once, as far as the cost of the round allows. False: there is nothing to forget.
   bool TryAgain();
   bool again() const { return again_; }  ///< whether it was done
 
@@ -140,6 +142,7 @@ class Exploration {
   void Forget();
   double Gain_m2(const Eigen::Vector2i& cell) const;
   double LeastGain_m2(double way_m) const;
+  double MostWay_m() const;
   std::string WhyLeft(const Frontier& frontier, const GridWays& ways) const;
   Eigen::Vector2d GoalBeyond(const Eigen::Vector2i& cell, const GridWays& ways) const;
   Eigen::Vector2d Outward(const Eigen::Vector2i& cell) const;
@@ -157,7 +160,8 @@ class Exploration {
   std::optional<Eigen::Vector2d> last_;
   double driven_m_ = 0;
   bool again_ = false;        ///< what was given up is tried again
-  double again_from_m2_ = 0;  ///< what was seen when that began
+  double again_from_m2_ = 0;  ///< what was seen when that began ...
+  double again_from_m_ = 0;   ///< ... and what had been driven
 };
 
 }  // namespace priamos::planner

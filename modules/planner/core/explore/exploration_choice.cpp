@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "planner/core/explore/exploration.hpp"
 #include "planner/core/explore/frontier_tour.hpp"
@@ -67,6 +68,7 @@ std::optional<Exploration::Candidate> Exploration::Best(const Frontier& frontier
   for (const Vector2i& at : frontier.cells) {
     const Vector2d place = grid_->PlaceOf(at.x(), at.y());
     if (!std::isfinite(ways.Way_m(at)) || ways.Clearance_m(at) < clearance_m_) continue;
+    if (ways.Way_m(at) > MostWay_m()) continue;
     if ((place - evidence_.trail.front()).norm() > config_.farthest_m || FindGivenUp(place)) continue;
     const double cost = CostOf(frontier, at, ways, base);
     if (best && cost >= best->cost) continue;
@@ -107,12 +109,13 @@ bool Exploration::IsCrumb(const Frontier& frontier) const {
 }
 
 std::string Exploration::WhyLeft(const Frontier& frontier, const GridWays& ways) const {
-  double widest_m = 0;
+  double widest_m = 0, nearest_m = std::numeric_limits<double>::infinity();
   bool near_enough = false;
   for (const Vector2i& at : frontier.cells) {
     const Vector2d place = grid_->PlaceOf(at.x(), at.y());
     if (const GivenUp* given = FindGivenUp(place)) return given->reason;
     widest_m = std::max(widest_m, 2 * ways.Clearance_m(at));
+    nearest_m = std::min(nearest_m, ways.Way_m(at));
     near_enough = near_enough || (place - evidence_.trail.front()).norm() <= config_.farthest_m;
   }
   if (!near_enough) return fmt::format("farther than {:.0f} m from the start", config_.farthest_m);
@@ -121,6 +124,8 @@ std::string Exploration::WhyLeft(const Frontier& frontier, const GridWays& ways)
   const bool some = std::any_of(frontier.cells.begin(), frontier.cells.end(), [&](const Vector2i& at) {
     return possible_->Behind_m2(at) >= config_.least_gain_m2;
   });
+  if (std::isfinite(nearest_m) && nearest_m > MostWay_m())
+    return fmt::format("{:.0f} m away, too far for what may be behind it", nearest_m);
   if (again_ && some) return "tried before, and little can be behind it";
   return fmt::format("no way of {:.2f} m width leads there", 2 * (clearance_m_ + kRaster_m));
 }
