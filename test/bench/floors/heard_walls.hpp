@@ -14,8 +14,8 @@ namespace priamos::bench {
 
 /// What a base tells of the walls of a true floor, by a rule in place of sonars: a face is heard where the
 /// base is before it, told once 0.8 m of it are and again when 1 m more are or nothing more comes, two walls
-/// every 1.2 m driven, up to 3 cm beside its place and up to 20 cm too long. Corners and edges are told as soon as they
-/// are in sight, 2 m away or nearer.
+/// every 1.2 m driven, up to 3 cm beside its place and up to 20 cm too long. Corners and edges are told as
+/// soon as they are in sight, 2 m away or nearer.
 class HeardWalls {
  public:
   HeardWalls(const cli::TrueWorld& world, const cli::TrueFloor& floor, std::uint64_t seed);

@@ -32,9 +32,10 @@ struct ExplorationConfig {
   double again_gain_m2 = 3.0;  ///< nor is one tried again that leads to less in all ...
   double gain_m2_per_m = 1.0;  ///< ... or to less for each metre of the way to it
   double again_m = 10;         ///< a round over what was left costs no more than this ...
-  double again_share = 0.25;   ///< ... and this share of what was driven before, unless it finds a room
-  double beyond_m = 1.0;       ///< the base drives so far into the unknown, as far as nothing is known there
-  double farthest_m = 80;      ///< from where it began; what lies beyond is left
+  double again_share =
+      0.25;                ///< ... and this share of what was driven before, but to what is behind an opening
+  double beyond_m = 1.0;   ///< the base drives so far into the unknown, as far as nothing is known there
+  double farthest_m = 80;  ///< from where it began; what lies beyond is left
 
   void Describe(Archive& a);
 };
@@ -87,8 +88,9 @@ class Exploration {
   void GiveUp(const Eigen::Vector2d& target, std::string reason, bool for_good = false);
 
   /// Forgets what stopped the base and what was given up, but for good: a thing is known by one side only,
-  /// and may have been a person. From then on, until a room has been seen, only frontiers with much behind them
-  /// count, for the way that leads to them, and each is tried once, as far as the cost of the round allows. False: there is nothing to forget.
+  /// and may have been a person. From then on, until a room has been seen, only frontiers with much behind
+  /// them count, for the way that leads to them, and each is tried once, as far as the cost of the round
+  /// allows. False: there is nothing to forget.
   bool TryAgain();
   bool again() const { return again_; }  ///< whether it was done
 
@@ -137,6 +139,7 @@ class Exploration {
   std::size_t FirstAt(const Eigen::Vector2d& place) const;
   static std::size_t FirstOf(const std::vector<Candidate>& candidates, const GridWays& ways);
   const GivenUp* FindGivenUp(const Eigen::Vector2d& at) const;
+  bool IsBehindOpening(const Eigen::Vector2d& place) const;
   bool IsCrumb(const Frontier& frontier) const;
   const PossibleFloor& possible();
   void Forget();

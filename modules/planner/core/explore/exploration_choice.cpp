@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/cross.hpp"
 #include "planner/core/explore/exploration.hpp"
 #include "planner/core/explore/frontier_tour.hpp"
 
@@ -18,6 +19,8 @@ using Eigen::Vector2i;
 
 /// In which direction a frontier leads is seen from what is unknown so near.
 constexpr int kOutwardCells = 5;
+/// Openings are not wider.
+constexpr double kWidest_m = 2.2;
 /// A round that has seen so much more has found a room.
 constexpr double kRoom_m2 = 5;
 
@@ -68,7 +71,7 @@ std::optional<Exploration::Candidate> Exploration::Best(const Frontier& frontier
   for (const Vector2i& at : frontier.cells) {
     const Vector2d place = grid_->PlaceOf(at.x(), at.y());
     if (!std::isfinite(ways.Way_m(at)) || ways.Clearance_m(at) < clearance_m_) continue;
-    if (ways.Way_m(at) > MostWay_m()) continue;
+    if (ways.Way_m(at) > MostWay_m() && !IsBehindOpening(place)) continue;
     if ((place - evidence_.trail.front()).norm() > config_.farthest_m || FindGivenUp(place)) continue;
     const double cost = CostOf(frontier, at, ways, base);
     if (best && cost >= best->cost) continue;
@@ -96,6 +99,28 @@ double Exploration::CostOf(const Frontier& frontier, const Vector2i& cell, const
 /// What a look at a border may bring; once nothing else is left, what a drive there may.
 double Exploration::Gain_m2(const Vector2i& cell) const {
   return again_ ? possible_->Region_m2(cell) : possible_->Behind_m2(cell);
+}
+
+/// Whether the straight line from where the base was nearest to a place leads between two edges that were
+/// heard, as far apart as those of an opening: then a room is behind it, and not the gap between two pieces
+/// of a wall.
+bool Exploration::IsBehindOpening(const Vector2d& place) const {
+  const auto& trail = evidence_.trail;
+  const Vector2d from = *std::min_element(trail.begin(), trail.end(), [&](const auto& a, const auto& b) {
+    return (a - place).squaredNorm() < (b - place).squaredNorm();
+  });
+  const auto& points = evidence_.walls.points;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t k = i + 1; k < points.size(); ++k) {
+      const Vector2d a = points[i].at(), b = points[k].at();
+      const double width_m = (b - a).norm();
+      if (width_m < 2 * clearance_m_ || width_m > kWidest_m) continue;
+      const auto side = [](const Vector2d& p, const Vector2d& q, const Vector2d& of) {
+        return Cross(q - p, of - p) > 0;
+      };
+      if (side(a, b, from) != side(a, b, place) && side(from, place, a) != side(from, place, b)) return true;
+    }
+  return false;
 }
 
 /// Whether there is next to nothing behind all of it: the corner of a room, between walls that are known.

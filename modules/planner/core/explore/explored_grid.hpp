@@ -26,7 +26,7 @@ struct ExploredGridConfig {
 struct ExploredEvidence {
   std::vector<Eigen::Vector2d> trail;  ///< where the base centre was, in steps of 10 to 30 cm
   LearnedWalls walls;                  ///< as told by now
-  std::vector<Rectangle> things;  ///< what else must not be touched: walls of a plan, what stopped the base
+  std::vector<Rectangle> things;   ///< what else must not be touched: walls of a plan, what stopped the base
   std::vector<Rectangle> seen{};   ///< things that the head saw
   std::vector<Rectangle> edges{};  ///< corners and edges where the base has not been
 };

@@ -52,6 +52,8 @@ class WallEnds {
   WallEnds(const LearnedWalls& walls, const std::vector<Vector2d>& trail, const PresumedWallConfig& config)
       : walls_(walls), trail_(trail), config_(config) {}
 
+  /// No wall goes on farther.
+  double most_m() const { return std::max({config_.corner_m, config_.heard_m, config_.unheard_m}); }
   /// How far a wall goes on at most, towards where the line of another one crosses its own.
   double MostToCorner_m(const LearnedWall& wall, double corner_m) const {
     if (!GoesOn(wall, corner_m)) return config_.corner_m;
@@ -90,7 +92,8 @@ std::optional<LearnedWall> ToCorner(const LearnedWall& wall, const LearnedWall& 
   if (!on_wall || !on_other) return std::nullopt;
   const auto meets = [&](const LearnedWall& one, double corner_m) {
     const double missing_m = MissingTo(corner_m, one);
-    return missing_m >= -kTooLong_m && missing_m <= ends.MostToCorner_m(one, corner_m);
+    return missing_m >= -kTooLong_m && missing_m <= ends.most_m() &&
+           missing_m <= ends.MostToCorner_m(one, corner_m);
   };
   if (MissingTo(*on_wall, wall) <= 0 || !meets(wall, *on_wall) || !meets(other, *on_other))
     return std::nullopt;
@@ -113,7 +116,8 @@ std::optional<LearnedWall> ToNext(const LearnedWall& wall, const LearnedWall& ne
 void PresumedWallConfig::Describe(Archive& a) {
   a.Number("corner_m", corner_m, {"m", 0, 2, "walls meet where no more than so much of either is missing"});
   a.Number("passed_m", passed_m, {"m", 0, 5, "so near to the end of a wall an edge would be heard"});
-  a.Number("heard_m", heard_m, {"m", 0, 6, "where none was the wall goes on so far to a corner that was heard"});
+  a.Number("heard_m", heard_m,
+           {"m", 0, 6, "where none was the wall goes on so far to a corner that was heard"});
   a.Number("unheard_m", unheard_m, {"m", 0, 6, "or so far to another wall"});
 }
 

@@ -10,8 +10,10 @@ namespace priamos::planner {
 
 /// Where walls go on although nobody told so.
 struct PresumedWallConfig {
-  double corner_m = 0.75;  ///< so much of either wall may be missing to a corner: through less the base does not fit
-  double passed_m = 1.8;   ///< who drives past the end of a wall so near hears an edge there, if it is one; if not ...
+  double corner_m =
+      0.75;  ///< so much of either wall may be missing to a corner: through less the base does not fit
+  double passed_m =
+      1.8;  ///< who drives past the end of a wall so near hears an edge there, if it is one; if not ...
   double heard_m = 2.5;    ///< ... the wall goes on, so far at most, to a corner that was heard ...
   double unheard_m = 1.8;  ///< ... or so far to another wall
 

@@ -12,10 +12,12 @@
 namespace priamos::planner {
 
 /// A floor of squares of 2 m, and a base that hears perfectly what it passes: a piece of wall is told when
-/// the base is before it, 2.5 m away at most, a corner or an edge when it is in sight, 2 m away at most. Where the base is led into a wall it stops before it.
+/// the base is before it, 2.5 m away at most, a corner or an edge when it is in sight, 2 m away at most.
+/// Where the base is led into a wall it stops before it.
 class IdealFloor {
  public:
-  static constexpr double kSquare_m = 2, kPiece_m = 1, kHears_m = 2.5, kHearsEdge_m = 2, kNeeds_m = 0.49, kCell_m = 0.1;
+  static constexpr double kSquare_m = 2, kPiece_m = 1, kHears_m = 2.5, kHearsEdge_m = 2, kNeeds_m = 0.49,
+                          kCell_m = 0.1;
 
   /// The base begins in the middle of the first square.
   explicit IdealFloor(std::vector<std::pair<int, int>> squares)
