@@ -353,7 +353,7 @@ double SlipFactorAfter(double off_rad) {
 
 TEST(PoseEstimator, FixesTellHowMuchTheWheelsSlip) {
   EXPECT_LT(SlipFactorAfter(0.0002), 0.7);
-  EXPECT_GT(SlipFactorAfter(0.004), 2);
+  EXPECT_GT(SlipFactorAfter(0.0025), 2);
 }
 
 }  // namespace
