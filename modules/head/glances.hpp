@@ -28,6 +28,11 @@ class Glances {
   void OnPose(const PoseSample& pose);
   /// The setting of a glance to begin now, if any; see GlanceRhythm::Step.
   std::optional<HeadSetting> Next(bool needed, bool glancing, Time now);
+  /// No glance for a while: a look is under way that others will follow.
+  void Defer(Time now) {
+    aside_.Defer(now);
+    ahead_.Defer(now);
+  }
   /// Takes the pictures of a glance, left and right, exposed at `robot` with the motors at `setting`.
   void Add(const std::array<std::optional<GreyImage>, 2>& pictures, const HeadSetting& setting,
            const PoseSample& robot);

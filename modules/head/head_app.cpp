@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
+#include <limits>
+#include <utility>
 
 #include "common/archive.hpp"
 #include "common/robot/camera_bits.hpp"
+#include "head/core/motion/head_stay.hpp"
 #include "head/files/calibration_file.hpp"
 #include "head/vision_options.hpp"
 
@@ -37,6 +41,7 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
       positioner_(config.motors),
       watch_(config.laser),
       floor_(head_, config.laser.obstacle),
+      follow_(config.follow),
       look_(config.look, CamerasOf(config, head_),
             config.pictures.empty() ? LookSequence::Exposures::kOwn : LookSequence::Exposures::kRecorded),
       evaluator_(head_, EvaluatorOptions(config, head_)),
@@ -109,15 +114,23 @@ HeadSetting HeadApp::SettingFor(const LookOrder& order, Time now) const {
   if (model == models_.end() || !robot) return setting;
   const LandmarkPrediction expected =
       PredictAhead(*robot, model->second.map_from_landmark, config_.aim.lead_s);
-  setting.tilt_rad = AimTilt(head_, setting, model->second, expected.base_from_landmark, config_.look_up);
+  const LandmarkPrediction later =
+      PredictAhead(*robot, model->second.map_from_landmark, config_.aim.lead_s + config_.look_up.ahead_s);
+  setting.tilt_rad = AimTilt(head_, setting, model->second, expected.base_from_landmark,
+                             later.base_from_landmark, config_.look_up);
   if (config_.lens.choose && report_) {
     // Counters may rest a step beside the goal.
     const HeadSetting& here = positioner_.settled() ? positioner_.goal() : report_->setting;
     return ChooseLens(head_, setting, here, {model->second, *robot, order.side}, config_.aim, config_.lens,
                       config_.motors.approach_steps);
   }
-  setting.pan_rad = AimPan(head_, setting, model->second, expected, order.side, config_.aim);
-  return setting;
+  setting.pan_rad = AimPan(head_, setting, model->second, expected, later, order.side, config_.aim);
+  const bool same_side = looked_at_ && looked_at_->landmark_id == order.landmark_id &&
+                         looked_at_->side == order.side && positioner_.settled();
+  const LandmarkPrediction at_once = Predict(*robot, model->second.map_from_landmark);
+  const bool stays = same_side && MayStay(head_, {positioner_.goal(), setting}, model->second, at_once,
+                                          order.side, config_.aim, config_.look_up);
+  return stays ? positioner_.goal() : setting;
 }
 
 void HeadApp::Reconfigure(const HeadConfig& config) {
@@ -159,6 +172,10 @@ void HeadApp::TakeMessages(Time now) {
   }
   for (const look_request_t& message : look_requests_.Drain()) {
     if (lost_) EndWithoutPictures(now);
+    if (std::exchange(following_, false)) {
+      orders_.pop_front();  // an order has the head at once
+      look_.End();
+    }
     orders_.push_back(FromMessage(message));
     if (orders_.size() <= kMaxOrders) continue;
     context_.Log(bus::Level::kWarning, "too many look requests at once: the oldest is refused");
@@ -168,11 +185,33 @@ void HeadApp::TakeMessages(Time now) {
 }
 
 void HeadApp::StartNext(Time now) {
-  if (look_.active() && !glancing_) return;
+  if (look_.active() && !glancing_) {
+    if (DistanceTo(orders_.front(), now) < config_.look.near_m) glances_.Defer(now);
+    return;
+  }
+  Follow(now);
   if (orders_.empty()) return GlanceAround(now);
   glancing_ = false;  // an order has the head at once
   positioner_.MoveTo(SettingFor(orders_.front(), now), now);
+  looked_at_ = orders_.front();
   look_.Begin(now);
+}
+
+/// Distance of an order's landmark from the base; infinite where nobody knows it.
+double HeadApp::DistanceTo(const LookOrder& order, Time now) const {
+  const auto model = models_.find(order.landmark_id);
+  const auto robot = poses_.At(now);
+  if (model == models_.end() || !robot) return std::numeric_limits<double>::infinity();
+  return (robot->map_from_base.Inverse() * model->second.map_from_landmark).translation().norm();
+}
+
+/// Looks again at what was found from near.
+void HeadApp::Follow(Time now) {
+  if (!orders_.empty() || !looked_at_) return;
+  const auto robot = poses_.At(now);
+  const double speed_m_s = robot ? std::hypot(robot->twist.vx, robot->twist.vy) : 0;
+  following_ = follow_.Due(DistanceTo(*looked_at_, now), speed_m_s, now);
+  if (following_) orders_.push_back(*looked_at_);
 }
 
 void HeadApp::GlanceAround(Time now) {
@@ -181,6 +220,7 @@ void HeadApp::GlanceAround(Time now) {
   const auto setting = glances_.Next(by_hand, glancing_, now);
   if (!setting) return;
   glancing_ = true;
+  looked_at_.reset();
   positioner_.MoveTo(*setting, now);
   look_.Begin(now, LookSequence::kPair);
 }
@@ -207,7 +247,10 @@ void HeadApp::MoveHead(Time now) {
 /// A look goes before an operator's hand.
 void HeadApp::MoveByHand(Time now) {
   if (look_.active() || !report_) return jog_.Stop();
-  if (const auto aim = aim_.Next(report_->setting, now)) positioner_.MoveTo(*aim, now);
+  if (const auto aim = aim_.Next(report_->setting, now)) {
+    looked_at_.reset();
+    positioner_.MoveTo(*aim, now);
+  }
   const auto setting = jog_.Step(report_->setting, now);
   if (!setting) return;
   positioner_.Release();
@@ -247,6 +290,7 @@ void HeadApp::WatchFloor(Time now) {
     case LaserWatch::Action::kWait:
       return;
     case LaserWatch::Action::kLower:
+      looked_at_.reset();
       return positioner_.MoveTo(config_.WatchSetting(), now);
     case LaserWatch::Action::kTrigger:
       trigger_.Publish(TriggerMessage(watch_.frame_id(), CameraBit(kThird) | kLaserBit, now));
@@ -335,12 +379,15 @@ void HeadApp::Answer(LookAnswer answer) {
   orders_.pop_front();
   const LookOrder& order = answer.order;
   const LandmarkFix& fix = answer.fix;
+  const bool followed = std::exchange(following_, false), found = fix.verdict == Verdict::kFound;
+  follow_.Answered(found, answer.exposure);
+  if (followed && !found) return;  // nobody waits for it
   if (const auto model = models_.find(order.landmark_id); model != models_.end())
     answer.map_from_landmark = model->second.map_from_landmark;
   fix_.Publish(ToMessage(answer));
   if (const auto seen = DoorSeenMessage(answer)) door_seen_.Publish(*seen);
   view_.Publish(ViewMessage(answer));
-  if (fix.verdict != Verdict::kFound) {
+  if (!found) {
     context_.Log(bus::Level::kWarning, fmt::format("look {}: landmark {} not found: {}", order.request_id,
                                                    order.landmark_id, Describe(fix.verdict)));
     return;

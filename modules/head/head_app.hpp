@@ -15,6 +15,7 @@
 #include "head/core/look/floor_evaluator.hpp"
 #include "head/core/look/look_evaluator.hpp"
 #include "head/core/motion/aim.hpp"
+#include "head/core/motion/follow_up.hpp"
 #include "head/core/motion/head_aim.hpp"
 #include "head/core/motion/head_jog.hpp"
 #include "head/glances.hpp"
@@ -54,6 +55,8 @@ class HeadApp {
  private:
   void TakeMessages(Time now);
   void StartNext(Time now);
+  double DistanceTo(const LookOrder& order, Time now) const;
+  void Follow(Time now);
   void GlanceAround(Time now);
   void EndGlance();
   void UseGlance();
@@ -83,6 +86,7 @@ class HeadApp {
   AimKeeper aim_;
   LaserWatch watch_;
   FloorEvaluator floor_;
+  FollowUp follow_;
   LookSequence look_;
   LookEvaluator evaluator_;
   Glances glances_;
@@ -91,6 +95,8 @@ class HeadApp {
   PoseHistory poses_;
   std::map<int, LandmarkModel> models_;
   std::deque<LookOrder> orders_;
+  bool following_ = false;              ///< the front of orders_ was ordered by nobody
+  std::optional<LookOrder> looked_at_;  ///< for which the head stands as it does; none: for something else
   CameraReader cameras_;
   std::optional<PictureFolder> pictures_, kept_;
   int not_kept_ = 0;

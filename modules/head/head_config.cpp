@@ -52,6 +52,7 @@ void HeadConfig::Describe(Archive& a) {
   a.Section("drawing", drawing, "the head as drawn: where a calibration starts");
   a.Section("motors", motors, "the KASTOR motors");
   a.Section("look", look, "the course of one look");
+  a.Section("follow", follow, "looks that nobody orders, at what was found from near");
   a.Section("vision", vision, "edges and landmark fixes");
   a.Section("drift", drift, "alarm when the cameras are no longer where the calibration has them");
   a.Section("laser", laser, "obstacles and steps by the laser's line");

@@ -11,6 +11,7 @@
 #include "head/core/motion/ahead_watch.hpp"
 #include "head/core/motion/aim.hpp"
 #include "head/core/motion/aim_tilt.hpp"
+#include "head/core/motion/follow_up.hpp"
 #include "head/core/motion/head_positioner.hpp"
 #include "head/core/motion/lens_choice.hpp"
 #include "head/core/motion/look_sequence.hpp"
@@ -64,6 +65,7 @@ struct HeadConfig {
   HeadGeometry drawing;  ///< where a calibration starts
   PositionerConfig motors;
   LookConfig look;
+  FollowConfig follow;
   VisionConfig vision;
   DriftConfig drift;
   LaserWatchConfig laser;

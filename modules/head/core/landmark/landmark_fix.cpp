@@ -160,6 +160,10 @@ bool LandmarkFixOptions::IsSharp(const Eigen::Matrix3d& search) const {
   return search(0, 0) + search(1, 1) < sharp_m * sharp_m;
 }
 
+bool LandmarkFixOptions::IsTracked(const Eigen::Matrix3d& search) const {
+  return search(0, 0) + search(1, 1) < tracked_m * tracked_m;
+}
+
 LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPrediction& prediction,
                                  std::span<const CameraView> views, const ModelErrors* known) const {
   if (known && known->mean.size() == ModelErrors::SizeFor(model))
@@ -266,10 +270,12 @@ void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Ma
                         ((one_sided && !may_miss) || side_missing ? options_.one_sided_log_odds : 0);
   const bool too_little_of_it =
       !may_miss && !IsNearlyAll(best.association) && best.association.best_log_odds < options_.few_log_odds;
-  const int least = may_miss ? options_.min_matched_sharp : options_.min_matched;
-  if (fix.n_matched < least * static_cast<int>(n_views) / 2 || fix.log_odds < wanted ||
-      (side_missing && !may_miss) || too_little_of_it ||
-      fix.log_odds < options_.min_share * best.association.best_log_odds) {
+  const bool tracked = options_.IsTracked(search);
+  const double least_share = tracked ? options_.min_share_tracked : options_.min_share;
+  const int per_pair = may_miss ? options_.min_matched_sharp : options_.min_matched;
+  const int least = tracked ? options_.min_matched_sharp : per_pair * static_cast<int>(n_views) / 2;
+  if (fix.n_matched < least || fix.log_odds < wanted || (side_missing && !may_miss) || too_little_of_it ||
+      fix.log_odds < least_share * best.association.best_log_odds) {
     fix.verdict = Verdict::kTooFewEdges;
   } else if (fix.rival_log_odds > fix.log_odds - options_.min_lead) {
     fix.verdict = Verdict::kAmbiguous;

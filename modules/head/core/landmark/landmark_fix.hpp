@@ -65,14 +65,16 @@ struct LandmarkFixOptions : RefinementOptions {
   int min_predicted = 4;  ///< edges that must be predicted, all images together
   int min_matched_sharp =
       4;  ///< and that many where the prediction is sharp: one jamb's, when the base is near
-  double min_log_odds = 7;  ///< log odds wanted beyond the logarithm of the number of poses tried
-  double min_share = 0.4;   ///< share of the log odds that a perfect match would give
+  double min_log_odds = 7;          ///< log odds wanted beyond the logarithm of the number of poses tried
+  double min_share = 0.4;           ///< share of the log odds that a perfect match would give
+  double min_share_tracked = 0.15;  ///< and where the landmark was followed up to here
   /// A landmark that would give no more log odds than few_log_odds is soon taken for something else: this
   /// share of them must be found. Of others less will do, with a lead over landmarks of their kind.
   double nearly_all = 0.85, few_log_odds = 40;
   double min_side_share = 0.1;  ///< least side_share of a fix
   double sharp_m =
       0.08;  ///< a prediction with a smaller sigma of the place leaves no room for another landmark
+  double tracked_m = 0.035;  ///< the same, of one that was followed: its edges can be nothing else's
   double one_sided_log_odds =
       5;  ///< log odds wanted in addition if only one side is in view: it could be another landmark's
   double min_lead = 6;               ///< log odds wanted over the best different pose
@@ -86,6 +88,9 @@ struct LandmarkFixOptions : RefinementOptions {
   Eigen::Matrix3d SearchCovariance(const LandmarkPrediction& prediction) const;
   /// Whether a search with this covariance leaves no room for another landmark.
   bool IsSharp(const Eigen::Matrix3d& search) const;
+  /// Whether it is that of a landmark that was followed: what of it is found is enough, the rest may be
+  /// outside of the pictures, or too near for them.
+  bool IsTracked(const Eigen::Matrix3d& search) const;
 };
 
 /// Finds the landmark in the images of two or three cameras: vertical edges of the first two are

@@ -8,7 +8,7 @@ void AheadWatchConfig::Describe(Archive& a) {
   a.Flag("ahead", ahead, "look ahead for what stands on the floor while the base follows a path");
   a.Number("tilt_deg", tilt_deg, {"deg", -45, 45, "of these glances, positive looks down"});
   a.Number("every_s", every_s, {"s", 0, 60, "from the end of a glance to the beginning of the next one"});
-  a.Number("idle_s", idle_s, {"s", 0, 60, "time after a look, or an operator's order, before the first"});
+  a.Number("idle_s", idle_s, {"s", 0, 60, "time after a look from near, or an operator's order"});
 }
 
 HeadSetting AheadWatch::SettingFrom(HeadSetting base) const {

@@ -11,7 +11,7 @@ struct AheadWatchConfig {
   bool ahead = false;    ///< glances ahead; without, the head waits for looks
   double tilt_deg = 12;  ///< down: what stands on the floor, from 1.3 m before the head on
   double every_s = 1.5;  ///< between the end of a glance and the beginning of the next one
-  double idle_s = 3;     ///< time after a look, or an operator's motion, before the first glance
+  double idle_s = 3;     ///< time after a look from near, or an operator's motion, before the first glance
 
   void Describe(Archive& a);
 };
@@ -26,6 +26,8 @@ class AheadWatch {
   bool Step(bool needed, bool glancing, bool drives, Time now) {
     return rhythm_.Step(needed, glancing, drives && config_.ahead, now);
   }
+  /// Somebody needs the head now, as in Step.
+  void Defer(Time now) { rhythm_.Defer(now); }
   /// The setting of a glance; vergence, zoom and focus as in `base`.
   HeadSetting SettingFrom(HeadSetting base) const;
 

@@ -15,6 +15,8 @@ class GlanceRhythm {
   /// One time step; true: begin one now. `needed`: a look or an operator moves the head; `glancing`: a glance
   /// is under way; `wanted`: there is a reason for one.
   bool Step(bool needed, bool glancing, bool wanted, Time now);
+  /// The head is needed now, though no glance could begin in any case.
+  void Defer(Time now) { needed_ = now; }
 
  private:
   double every_s_, idle_s_;

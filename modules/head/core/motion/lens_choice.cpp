@@ -227,7 +227,7 @@ KeptEdges KeptAt(const HeadModel& head, const HeadSetting& setting, const Landma
   kept.whole = true;
   for (std::size_t i = 0; i < model.edges.size(); ++i) {
     const LandmarkEdge& edge = model.edges[i];
-    kept.edge[i] = OutsideBy(head.geometry, {*left, *right}, edge, prediction, aim) == 0;
+    kept.edge[i] = OutsideBy(head.geometry, {*left, *right}, setting.tilt_rad, edge, prediction, aim) == 0;
     if (!edge.IsMovable() && (edge.IsVertical() || edge.IsLevel()) && !kept.edge[i]) kept.whole = false;
   }
   return kept;

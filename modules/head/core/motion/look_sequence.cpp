@@ -9,6 +9,7 @@ void LookConfig::Describe(Archive& a) {
            {"s", 0.05, 10, "all pictures must have come by then, or they are asked for again"});
   a.Integer("attempts", attempts, {"-", 1, 10, "exposures per look"});
   a.Number("age_limit_s", age_limit_s, {"s", 0.5, 60, "a look not answered by then is given up"});
+  a.Number("near_m", near_m, {"m", 0, 10, "a look at what is nearer is followed by looks, not by glances"});
 }
 
 void LookSequence::Begin(Time now, int cameras) {

@@ -17,6 +17,7 @@ struct LookConfig {
   double frame_timeout_s = 0.5;  ///< time after which missing pictures are exposed again
   int attempts = 3;              ///< exposures per look
   double age_limit_s = 12;       ///< time after which a look is given up
+  double near_m = 1.8;           ///< looks at what is nearer leave no time for glances
 
   void Describe(Archive& a);
 };

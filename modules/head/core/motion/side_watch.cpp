@@ -10,7 +10,7 @@ void SideWatchConfig::Describe(Archive& a) {
   a.Number("tilt_deg", tilt_deg, {"deg", -45, 45, "of these glances, positive looks down"});
   a.Integer("zoom_step", zoom_step, {"step", 0, 2000, "zoom motors for these glances"});
   a.Number("every_s", every_s, {"s", 0, 60, "from the end of a glance to the beginning of the next one"});
-  a.Number("idle_s", idle_s, {"s", 0, 60, "time after a look, or an operator's order, before the first"});
+  a.Number("idle_s", idle_s, {"s", 0, 60, "time after a look from near, or an operator's order"});
 }
 
 std::optional<double> SideWatch::Step(bool needed, bool glancing, bool follows, Time now) {

@@ -16,7 +16,7 @@ struct SideWatchConfig {
   double tilt_deg = -10;   ///< up: the lintel is near when seen from within a corridor
   int zoom_step = 100;
   double every_s = 0.2;  ///< between the end of a glance and the beginning of the next one
-  double idle_s = 2;     ///< time after a look, or an operator's motion, before the first glance
+  double idle_s = 2;     ///< time after a look from near, or an operator's motion, before the first glance
 
   void Describe(Archive& a);
 };
@@ -31,6 +31,8 @@ class SideWatch {
   /// One time step; a pan angle [rad]: begin a glance there. `follows`: the base drives along a corridor; see
   /// GlanceRhythm::Step.
   std::optional<double> Step(bool needed, bool glancing, bool follows, Time now);
+  /// Somebody needs the head now, as in Step.
+  void Defer(Time now) { rhythm_.Defer(now); }
   /// The setting of a glance at `pan_rad`; vergence and focus as in `base`.
   HeadSetting SettingAt(double pan_rad, HeadSetting base) const;
 

@@ -263,7 +263,7 @@ void DoorMission::Pass(MissionControl& control) {
   SettleLook(control);
   const double distance_m = DistanceToDoor(control);
   if (distance_m > config_.confirm_to_m && looks_.Ready(control.now()) && !looks_.Exhausted()) {
-    if (distance_m < config_.one_side_m) looks_.StayOnSide();
+    if (distance_m < config_.one_side_m) looks_.StayOnSide(distance_m < config_.commit_m);
     AskLook(control);
   }
   Commit(control, distance_m);

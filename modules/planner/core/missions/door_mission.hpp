@@ -21,7 +21,7 @@ struct DoorMissionConfig {
   double look_to_m = 2.0;     ///< distance at which both sides should have been seen ...
   double looks_take_s = 3.5;  ///< ... and how long that takes, starting and radio included
   double one_side_m = 1.8;    ///< nearer, a picture holds one side only: looks stay on one
-  double confirm_to_m = 0.9;  ///< looks go on to here while passing; nearer, the jambs leave the picture
+  double confirm_to_m = 0.7;  ///< looks go on to here while passing; nearer, the head follows the door itself
   double last_look_m = 1.0;   ///< from here the last look is expected: what the wheels add counts from there
   double commit_m = 0.85;  ///< here the pose is judged for the last time, before the base is in the opening
   double tracking_m = 0.005;     ///< largest deviation of the path following in the door

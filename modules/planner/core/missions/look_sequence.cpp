@@ -30,8 +30,8 @@ void LookSequence::Reset() {
   *this = LookSequence(config_);
 }
 
-void LookSequence::StayOnSide() {
-  if (found_) next_ = current_;
+void LookSequence::StayOnSide(bool also_lost) {
+  if (found_ || also_lost) next_ = current_;
 }
 
 void LookSequence::Asked(int request_id, Time now) {

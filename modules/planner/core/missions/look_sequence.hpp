@@ -30,8 +30,9 @@ class LookSequence {
   /// Whether a look may be asked for now: none is under way and the pause after a failed one is over.
   bool Ready(Time now) const { return !request_id_ && now >= not_before_; }
   Side next() const { return next_; }
-  /// Looks at the same side again, for which the head need not turn, when the last look found it.
-  void StayOnSide();
+  /// Looks at the same side again, for which the head need not turn, when the last look found it; with
+  /// `also_lost` also when it did not.
+  void StayOnSide(bool also_lost = false);
   /// A look at next() was asked for.
   void Asked(int request_id, Time now);
 

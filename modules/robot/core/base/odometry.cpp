@@ -26,6 +26,14 @@ std::int32_t TickDifference(std::int32_t to, std::int32_t from) {
 
 }  // namespace
 
+OdometryStep OdometryStep::Slipping(double factor) const {
+  OdometryStep step = *this;
+  if (!known) return step;
+  step.wander.variance *= factor;
+  step.noise *= std::max(1.0, factor);
+  return step;
+}
+
 void OdometryNoise::Describe(Archive& a) {
   a.Number("slip_length_m", slip_length_m,
            {"m", 0.01, 10, "distance after which a wheel's slip is forgotten"});

@@ -66,6 +66,9 @@ struct OdometryStep {
   bool known = true;  ///< false: encoders were not credible, `twist` is 0 and `noise` covers the motion
 
   double seconds() const { return Seconds(to - from); }
+  /// The step of wheels whose slip has `factor` times the variance. What is not their rolling is not less for
+  /// that.
+  OdometryStep Slipping(double factor) const;
 };
 
 /// Dead reckoning of the four wheels. Encoder counts may wrap; samples may be lost (the next one covers the

@@ -80,8 +80,11 @@ void PoseEstimator::Move(const OdometryStep& step) {
     const PoseState state = history_.empty() ? initial_ : history_.back().state;
     history_.clear();
     history_.push_back({.step = {.from = step.from, .to = step.from}, .state = state});
+    learnt_.reset();
   }
-  history_.push_back({.step = step, .state = Propagated(history_.back().state, step)});
+  history_.push_back({.step = step,
+                      .state = Propagated(history_.back().state, step.Slipping(slip_factor_)),
+                      .slip = slip_factor_});
   Forget();
 }
 
@@ -98,6 +101,7 @@ Pose2 PoseEstimator::Reset(const KnownPose& known) {
       Eigen::Vector3d(known.sigma_m, known.sigma_m, known.sigma_yaw_rad).cwiseAbs2();
   heard_.clear();
   compared_.reset();
+  learnt_.reset();
   if (history_.empty()) {
     initial_ = state;
   } else {
@@ -142,7 +146,70 @@ FixResult PoseEstimator::Apply(const LandmarkFix& fix) {
     result.at_picture = EstimateAt(entry);
     Replay(index + 1);
   }
+  LearnSlip(index);
   return result;
+}
+
+namespace {
+
+/// What the wheels say of the way between two fixes, and how far slip may make that wrong.
+struct WheelsBetween {
+  double turn_rad = 0, forward_m = 0;
+  double variance = 0;  ///< of the turn, by slip as configured
+  bool usable = true;   ///< encoders were credible all the way
+
+  void Add(const OdometryStep& step);
+
+ private:
+  double slip_ = 0, with_turn_ = 0;  ///< variance of the slip, and its covariance with the turn
+  bool begun_ = false;
+};
+
+/// The slip keeps its sign for a while: it adds up with the turn that it has made already.
+void WheelsBetween::Add(const OdometryStep& step) {
+  const double forward = step.twist.vx * step.seconds(), kept = step.wander.kept,
+               added = step.wander.variance(1);
+  usable = usable && step.known;
+  turn_rad += step.twist.wz * step.seconds();
+  forward_m += forward;
+  if (!begun_ && kept < 1) {
+    slip_ = added / (1 - kept * kept);
+    begun_ = true;
+  }
+  variance += 2 * with_turn_ * forward + slip_ * forward * forward + step.noise(2, 2);
+  with_turn_ = (with_turn_ + slip_ * forward) * kept;
+  slip_ = slip_ * kept * kept + added;
+}
+
+double HeadingBy(const LandmarkFix& fix) {
+  return WrapAngle(fix.map_from_landmark.yaw - fix.base_from_landmark.yaw);
+}
+
+/// Variance of a fix's heading without what the fixes before and after it repeat: of that a part changes with
+/// the place.
+double OwnVariance(const LandmarkFix& fix) {
+  constexpr double kChanging = 0.25;
+  return fix.covariance(2, 2) * (fix.own_share + kChanging * (1 - fix.own_share));
+}
+
+}  // namespace
+
+/// By a fix that was applied at an entry, and the one before it.
+void PoseEstimator::LearnSlip(std::size_t index) {
+  constexpr double kMostSigma_rad = Radians(0.3), kMostTurn_rad = 0.1, kLeast_m = 0.03, kMost_m = 1.5;
+  const LandmarkFix fix = *history_[index].fix;
+  if (fix.covariance(2, 2) > kMostSigma_rad * kMostSigma_rad) return;
+  const auto before = std::exchange(learnt_, fix);
+  if (!before || before->exposure >= fix.exposure || before->exposure < history_.front().step.to) return;
+  WheelsBetween wheels;
+  for (std::size_t i = 0; i <= index; ++i)
+    if (history_[i].step.to > before->exposure) wheels.Add(history_[i].step);
+  if (!wheels.usable || std::abs(wheels.turn_rad) > kMostTurn_rad || wheels.forward_m < kLeast_m ||
+      wheels.forward_m > kMost_m)
+    return;
+  slip_.Add(WrapAngle(HeadingBy(fix) - HeadingBy(*before) - wheels.turn_rad), wheels.variance,
+            OwnVariance(fix) + OwnVariance(*before), wheels.forward_m);
+  slip_factor_ = slip_.factor();
 }
 
 /// At the last entry of that time: within one step of the odometry the base does not come nearer to a wall.
@@ -243,15 +310,20 @@ std::size_t PoseEstimator::EntryAt(Time time) {
   // Between two entries there is only the step unless odometry paused: then the pose stood still.
   const OdometryStep first = Part(whole, whole.from, std::max(time, whole.from));
   const OdometryStep second = Part(whole, first.to, whole.to);
+  const double slip = after->slip;
   after->step = second;
-  history_.insert(after, {.step = first, .state = Propagated(history_[index - 1].state, first)});
+  history_.insert(
+      after,
+      {.step = first, .state = Propagated(history_[index - 1].state, first.Slipping(slip)), .slip = slip});
   return index;
 }
 
 void PoseEstimator::Replay(std::size_t from) {
   for (std::size_t i = from; i < history_.size(); ++i) {
     Entry& entry = history_[i];
-    entry.state = Updated(Propagated(history_[i - 1].state, entry.step), entry.ranges, config_.walls).state;
+    entry.state = Updated(Propagated(history_[i - 1].state, entry.step.Slipping(entry.slip)), entry.ranges,
+                          config_.walls)
+                      .state;
     if (entry.lost) entry.state = WithoutWall(entry.state, *entry.lost);
     if (entry.found) entry.state = WithWall(entry.state, *entry.found);
     for (const PlanMatch& match : entry.matches) entry.state = Updated(entry.state, match);

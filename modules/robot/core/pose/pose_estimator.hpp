@@ -12,6 +12,7 @@
 #include "robot/core/base/odometry.hpp"
 #include "robot/core/pose/landmark_update.hpp"
 #include "robot/core/pose/plan_match.hpp"
+#include "robot/core/pose/slip_scale.hpp"
 #include "robot/core/pose/wall_update.hpp"
 
 namespace priamos::robot {
@@ -111,6 +112,8 @@ class PoseEstimator {
   void Hear(const RingHeard& heard);
   /// Sets the walls of the plan around the base; what the ring hears of them corrects the pose.
   void SetPlan(std::vector<PlanWall> plan) { plan_ = std::move(plan); }
+  /// How many times the configured variance the slip of the wheels has, as fixes told so far.
+  double slip_factor() const { return slip_factor_; }
   /// How often a wall was found to be one of the plan.
   int plan_matches() const { return plan_matches_; }
   /// How many straight walls hold the pose now.
@@ -121,8 +124,9 @@ class PoseEstimator {
 
  private:
   struct Entry {
-    OdometryStep step;                 ///< odometry step to this entry
+    OdometryStep step;                 ///< odometry step to this entry, its noise as configured
     PoseState state{};                 ///< after step, ranges, changes of walls, and fix
+    double slip = 1;                   ///< factor of the variance of the wheels' slip in the step
     std::optional<LandmarkFix> fix{};  ///< the fix that was applied at this entry
     std::vector<RangeSeen> ranges{};   ///< what the ring heard at this entry
     std::optional<int> lost{};         ///< the wall that was given up after these ranges
@@ -134,6 +138,7 @@ class PoseEstimator {
   LandmarkMeasurement MeasurementOf(const LandmarkFix& fix) const;
   std::size_t EntryAt(Time time);
   void Replay(std::size_t from);
+  void LearnSlip(std::size_t index);
   void ComparePlan(std::size_t index);
   void TakeUp(const PoseState& state, const WallSeen& seen, Entry& entry);
   PoseEstimate EstimateAt(const Entry& entry) const;
@@ -147,6 +152,9 @@ class PoseEstimator {
   std::vector<PlanWall> plan_;
   std::optional<Time> compared_;  ///< when the walls were compared with the plan last
   int plan_matches_ = 0;
+  SlipScale slip_;
+  double slip_factor_ = 1;             ///< of slip_
+  std::optional<LandmarkFix> learnt_;  ///< the last fix that told slip_ something
 };
 
 }  // namespace priamos::robot

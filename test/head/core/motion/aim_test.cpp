@@ -63,6 +63,16 @@ TEST(Aim, NearTheDoorTheSideAskedForIsInThePicture) {
   }
 }
 
+TEST(Aim, FromNearOnePictureShowsTheSideAlsoOfTheNextLooks) {
+  HeadSetting setting = kLooks;
+  setting.tilt_rad = Radians(-40);
+  for (const int side : {1, 2}) {
+    setting.pan_rad = AimPan(HeadOfOneLens(), setting, DoorOfFiveEdges(), At(1.1, 0), At(0.8, 0), side, {});
+    for (const double x : {1.1, 0.95, 0.8})
+      EXPECT_EQ(SideOutsideBy(HeadOfOneLens(), setting, DoorOfFiveEdges(), At(x, 0), side, {}), 0) << x;
+  }
+}
+
 TEST(Aim, ALandmarkBehindIsNotChased) {
   AimConfig config;
   EXPECT_LE(std::abs(AimPan(HeadOfOneLens(), kLooks, DoorOfFiveEdges(), At(-3, 0.5), 1, config)),

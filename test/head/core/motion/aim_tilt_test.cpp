@@ -40,8 +40,35 @@ TEST(AimTilt, FromNearItLooksJustAsFarUpAsTheLintelNeeds) {
 }
 
 TEST(AimTilt, ALintelThatIsOutOfReachChangesNothing) {
-  EXPECT_EQ(AimTilt(HeadOfOneLens(), kLooks, Opening(2), {0.7, 0, 0}, {}), kLooks.tilt_rad);
+  EXPECT_EQ(AimTilt(HeadOfOneLens(), kLooks, Opening(2), {0.6, 0, 0}, {}), kLooks.tilt_rad);
   EXPECT_EQ(AimTilt(HeadOfOneLens(), kLooks, Opening(2), {1.7, 0, 0}, {.most_deg = 5}), kLooks.tilt_rad);
+}
+
+TEST(AimTilt, ADrivingBaseLooksAsFarUpAsTheNextLookNeeds) {
+  const Pose2 now{1.7, 0, 0}, next{1.4, 0, 0}, far{0.9, 0, 0};
+  EXPECT_EQ(AimTilt(HeadOfOneLens(), kLooks, Opening(2), now, next, {}),
+            AimTilt(HeadOfOneLens(), kLooks, Opening(2), next, {}));
+  // But not so far that the lintel sinks below the middle of the picture.
+  const double tilt = AimTilt(HeadOfOneLens(), kLooks, Opening(2), now, far, {});
+  EXPECT_GT(tilt, AimTilt(HeadOfOneLens(), kLooks, Opening(2), far, {}));
+  EXPECT_LT(RowOfTop(tilt, now.x, 2), 288);
+}
+
+TEST(AimTilt, OfEdgesThatCannotAllBeShownThoseThatCanCount) {
+  LandmarkModel with_frame = Opening(2);
+  with_frame.edges.push_back({{-0.1, -0.5, 2.3}, {-0.1, 0.5, 2.3}});
+  EXPECT_EQ(AimTilt(HeadOfOneLens(), kLooks, with_frame, {0.8, 0, 0}, {}),
+            AimTilt(HeadOfOneLens(), kLooks, Opening(2), {0.8, 0, 0}, {}));
+}
+
+TEST(AimTilt, CountsTheLevelEdgesInBothPictures) {
+  const auto shown = [](double tilt_deg) {
+    HeadSetting setting = kLooks;
+    setting.tilt_rad = Radians(tilt_deg);
+    return LevelEdgesShown(HeadOfOneLens(), setting, Opening(2), {1, 0, 0}, {});
+  };
+  EXPECT_EQ(shown(-5), 0);
+  EXPECT_EQ(shown(-40), 1);
 }
 
 TEST(AimTilt, WithoutLevelEdgesOrBehindTheBaseItChangesNothing) {

@@ -41,6 +41,13 @@ TEST(LookSequence, StaysOnASideUntilItIsNotFound) {
   }
 }
 
+TEST(LookSequence, WhereThereIsNoTimeToTurnItStaysOnALostSide) {
+  Looks s;
+  s.Look(false);
+  s.dut.StayOnSide(true);
+  EXPECT_EQ(s.dut.next(), Side::kLeft);
+}
+
 TEST(LookSequence, OneAtATime) {
   Looks s;
   EXPECT_TRUE(s.dut.Ready(s.now));

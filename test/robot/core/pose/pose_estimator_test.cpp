@@ -326,5 +326,35 @@ TEST_F(WallsTest, CyclesOfThePastAndBeforeTheFirstStepAreIgnored) {
   EXPECT_EQ(dut_.walls(), 1);
 }
 
+/// The factor of the slip after fixes 0.3 m apart that show the heading `off_rad` to one side and the other
+/// of where the wheels have it.
+double SlipFactorAfter(double off_rad) {
+  constexpr double kSpeed_m_s = 0.3, kSlip = 9.4e-5;
+  constexpr Duration kStep = std::chrono::milliseconds(20);
+  const double kept = std::exp(-kSpeed_m_s * 0.02 / 0.3);
+  const Pose2 landmark{6, 0, 0};
+  PoseEstimatorConfig config;
+  config.initial = {.position_error_m = 0.05, .yaw_error_deg = 3};
+  PoseEstimator dut(config);
+  Time now = FromUtime(1'000'000);
+  for (int fix = 0; fix < 12; ++fix) {
+    for (int i = 0; i < 50; ++i, now += kStep)
+      dut.Move({.from = now,
+                .to = now + kStep,
+                .twist = {kSpeed_m_s, 0, 0},
+                .wander = {kept, Eigen::Vector3d::Constant(kSlip * (1 - kept * kept))}});
+    const Pose2 truth{0.3 * (fix + 1), 0, fix % 2 ? off_rad : -off_rad};
+    const Eigen::Matrix3d covariance = Eigen::Vector3d(1e-6, 1e-6, 2.5e-7).asDiagonal();
+    EXPECT_EQ(dut.Apply({now, fix, truth.Inverse() * landmark, covariance, landmark}).verdict,
+              FixVerdict::kApplied);
+  }
+  return dut.slip_factor();
+}
+
+TEST(PoseEstimator, FixesTellHowMuchTheWheelsSlip) {
+  EXPECT_LT(SlipFactorAfter(0.0002), 0.7);
+  EXPECT_GT(SlipFactorAfter(0.0025), 2);
+}
+
 }  // namespace
 }  // namespace priamos::robot
