@@ -53,10 +53,12 @@ bool AreOne(const UprightEdge& a, const UprightEdge& b, const UprightOptions& op
 
 namespace {
 
+/// Most of their errors is that of the calibration, which both share: together they are no surer than the
+/// better one.
 void Join(const UprightEdge& piece, UprightEdge& edge) {
   const Eigen::Matrix2d gain = edge.covariance * (edge.covariance + piece.covariance).inverse();
   edge.at += gain * (piece.at - edge.at);
-  edge.covariance -= gain * edge.covariance;
+  if (piece.covariance.trace() < edge.covariance.trace()) edge.covariance = piece.covariance;
   edge.bottom_m = std::min(edge.bottom_m, piece.bottom_m);
   edge.top_m = std::max(edge.top_m, piece.top_m);
 }

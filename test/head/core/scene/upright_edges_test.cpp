@@ -51,5 +51,20 @@ TEST(UprightEdges, WhatIsTooFarToBePlacedIsLeftOut) {
   EXPECT_TRUE(scene.Uprights(scene.Views()).empty());
 }
 
+TEST(UprightEdges, OneSightingTwiceIsNoSurerThanOnce) {
+  DrawnScene scene;
+  scene.Upright({3, 0.4}, 0.2, 1.6);
+  const StereoViews views = scene.Views();
+  auto matches = scene.Matches(views);
+  ASSERT_EQ(matches.size(), 1u);
+  const auto once = FindUprights(matches, {});
+  matches.push_back(matches[0]);
+  const auto twice = FindUprights(matches, {});
+  ASSERT_EQ(once.size(), 1u);
+  ASSERT_EQ(twice.size(), 1u);
+  EXPECT_NEAR(twice[0].covariance.trace(), once[0].covariance.trace(), 1e-12);
+  EXPECT_NEAR((twice[0].at - once[0].at).norm(), 0, 1e-9);
+}
+
 }  // namespace
 }  // namespace priamos::head
