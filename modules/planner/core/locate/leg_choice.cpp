@@ -13,8 +13,9 @@ constexpr double kStep_m = 0.25;
 constexpr double kWidened_m = 0.4;  ///< a wall goes on beside what was heard of it
 constexpr double kClosedNear_m = 0.4, kClosedCos = 0.87;
 constexpr double kSlanted_m = 0.3;
-constexpr double kHalfBase_m = 0.45;  ///< between half its width and half its length
-constexpr double kBeside_m = 0.1;     ///< lines of a way back, of the way driven
+constexpr double kHalfBase_m = 0.45;                ///< between half its width and half its length
+constexpr double kBack_m = 0.12, kBack_rad = 0.15;  ///< a base so near to where it was is back there
+constexpr double kBeside_m = 0.1;                   ///< lines of a way back, of the way driven
 
 /// How far it is to a piece from `from` in a direction of length 1.
 double DistanceTo(const HeardPiece& piece, const Eigen::Vector2d& from, const Eigen::Vector2d& ray) {
@@ -164,6 +165,19 @@ std::optional<Pose2> ChooseLeg(const LegChoiceConfig& config, const DrivenWay& w
   return best->end;
 }
 
+std::vector<Pose2> WithoutLoops(const std::vector<Pose2>& trail) {
+  std::vector<Pose2> kept;
+  for (const Pose2& spot : trail) {
+    const auto same = std::find_if(kept.begin(), kept.end(), [&](const Pose2& before) {
+      return (before.translation() - spot.translation()).norm() < kBack_m &&
+             std::abs(WrapAngle(before.yaw - spot.yaw)) < kBack_rad;
+    });
+    if (same != kept.end()) kept.erase(same + 1, kept.end());
+    kept.push_back(spot);
+  }
+  return kept;
+}
+
 std::vector<Pose2> AlongTrail(const std::vector<Pose2>& trail, std::size_t from, std::size_t to) {
   const auto [corner, beside_m] = FarthestBeside(trail, from, to);
   if (beside_m <= kBeside_m) return {trail[to]};
@@ -175,17 +189,18 @@ std::vector<Pose2> AlongTrail(const std::vector<Pose2>& trail, std::size_t from,
 
 std::vector<Pose2> ChooseWayBack(const LegChoiceConfig& config, const DrivenWay& way, const LegHints& hints) {
   const Chooser chooser(config, way, hints);
+  const std::vector<Pose2> trail = WithoutLoops(way.trail);
   std::optional<std::size_t> best;
   double most = 0, back_m = 0;
-  for (std::size_t i = way.trail.size() - 1; i-- > 0;) {
-    back_m += (way.trail[i + 1].translation() - way.trail[i].translation()).norm();
-    const auto leg = chooser.Best(way.trail[i], false);
+  for (std::size_t i = trail.size() - 1; i-- > 0;) {
+    back_m += (trail[i + 1].translation() - trail[i].translation()).norm();
+    const auto leg = chooser.Best(trail[i], false);
     if (!leg || leg->new_m - config.back_gain * back_m <= most) continue;
     most = leg->new_m - config.back_gain * back_m;
     best = i;
   }
   if (!best) return {};
-  return AlongTrail(way.trail, way.trail.size() - 1, *best);
+  return AlongTrail(trail, trail.size() - 1, *best);
 }
 
 }  // namespace priamos::planner

@@ -21,7 +21,7 @@ struct LegChoiceConfig {
   double least_new_m = 0.3;  ///< of a leg, in unknown surroundings
   double back_gain = 0.2;    ///< metres in the unknown that a metre driven back has to show
   double told_gain = 1;      ///< of a leg, for each metre by which places differ in how far it can be driven
-  double aligned_m = 1;      ///< the base turns along walls of which so much was heard
+  double aligned_m = 1.5;    ///< the base turns along walls of which so much was heard
 
   void Describe(Archive& a);
 };
@@ -51,6 +51,9 @@ std::optional<Pose2> ChooseLeg(const LegChoiceConfig& config, const DrivenWay& w
 /// through the most that is new for the metres driven back. Corners and end of it, frame of the way, with the
 /// headings that the base had there; empty when there is no such place.
 std::vector<Pose2> ChooseWayBack(const LegChoiceConfig& config, const DrivenWay& way, const LegHints& hints);
+
+/// A way driven without the loops in it: whatever the base did meanwhile, it is back where it was.
+std::vector<Pose2> WithoutLoops(const std::vector<Pose2>& trail);
 
 /// A way driven, from its place `from` (an index of the trail) to `to`, which may lie before it: corners and
 /// end, so few that straight lines between them stay beside it.

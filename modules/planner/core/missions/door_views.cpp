@@ -195,12 +195,20 @@ void DoorViews::AddTrail(const DoorPlan& door, const std::vector<Pose2>& trail,
 }
 
 std::optional<PlannedPath> DoorViews::WayTo(const Spot& spot, const std::vector<Pose2>& trail) const {
-  if (!spot.of_trail) return planner_.FindPath(trail.back(), {spot.there, true});
   PlannedPath path;
+  if (!spot.of_trail) {
+    auto route = planner_.FindPath(trail.back(), {spot.there, true});
+    if (!route) return std::nullopt;
+    path = std::move(*route);
+    path.leeway.resize(path.points.size());
+    for (Leeway& leeway : path.leeway)
+      leeway = {std::max(kLeastLeeway_m, leeway.left_m), std::max(kLeastLeeway_m, leeway.right_m)};
+    return path;
+  }
   const bool turns = std::abs(WrapAngle(spot.there.yaw - trail[*spot.of_trail].yaw)) > 1e-6;
   if (*spot.of_trail + 1 < trail.size()) path.points = AlongTrail(trail, trail.size() - 1, *spot.of_trail);
   if (turns) path.points.push_back(spot.there);
-  path.leeway.assign(path.points.size(), {});
+  path.leeway.assign(path.points.size(), {kLeastLeeway_m, kLeastLeeway_m});
   return path;
 }
 

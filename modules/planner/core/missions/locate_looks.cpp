@@ -24,8 +24,15 @@ constexpr double kLeast_m = 0.15, kLeast_rad = 0.05;
 constexpr double kWide_m = 0.35, kWide_rad = 0.12;
 /// Log-odds against a place that has no door where one was seen.
 constexpr double kNoDoor = 20;
+/// So often a model is sent that the head still does not have.
+constexpr int kMostModels = 6;
 /// Candidates of two searches that are one.
 constexpr double kSameView_m = 0.6, kSame_rad = 0.2;
+
+/// Whether a look shows that no door is there. A head that does not answer is taken for one without a model.
+bool IsMiss(const LookResult& result) {
+  return !result.ok && !result.no_model && !result.elsewhere;
+}
 
 bool AreOne(const Pose2& a, const Pose2& b) {
   return (a.translation() - b.translation()).norm() < kSameView_m &&
@@ -49,10 +56,11 @@ std::vector<Rectangle> On(const Pose2& map_from_way, const std::vector<Rectangle
 
 /// The way back along what was driven, so far: frame of the way.
 std::vector<Pose2> WayBack(const DrivenWay& way, double back_m) {
-  std::size_t to = way.trail.size() - 1;
+  const std::vector<Pose2> trail = WithoutLoops(way.trail);
+  std::size_t to = trail.size() - 1;
   for (double left_m = back_m; to > 0 && left_m > 0; --to)
-    left_m -= (way.trail[to].translation() - way.trail[to - 1].translation()).norm();
-  return AlongTrail(way.trail, way.trail.size() - 1, to);
+    left_m -= (trail[to].translation() - trail[to - 1].translation()).norm();
+  return AlongTrail(trail, trail.size() - 1, to);
 }
 
 }  // namespace
@@ -81,6 +89,9 @@ void LocateLooks::Reset() {
 }
 
 void LocateLooks::Take(const PlaceEvidence& evidence) {
+  placed_.reset();
+  // Walls that fit nowhere take nothing back of what was seen.
+  if (evidence.found().empty() && !sightings_.empty()) return;
   const Pose2& way_from_base = evidence.log().way_from_base();
   std::vector<PlaceHypothesis> taken;
   for (const PlaceCandidate& c : evidence.found()) {
@@ -96,7 +107,6 @@ void LocateLooks::Take(const PlaceEvidence& evidence) {
   }
   hypotheses_ = std::move(taken);
   Weigh();
-  placed_.reset();
   test_ = 0;
 }
 
@@ -154,7 +164,7 @@ std::optional<DoorView> LocateLooks::ViewOf(std::size_t which, const Pose2& plac
     if (i != which && hypotheses_[i].held && hypotheses_[i].seen <= 0)
       others.push_back(hypotheses_[i].map_from_way * way.base());
   const Pose2 map_from_way = place * way.base().Inverse();
-  for (const Pose2& spot : way.trail) trail.push_back(map_from_way * spot);
+  for (const Pose2& spot : WithoutLoops(way.trail)) trail.push_back(map_from_way * spot);
   const auto things = On(map_from_way, evidence.met().stops()),
              echoes = On(map_from_way, evidence.met().Echoes(way.trail));
   views_.Know(WallsAt(way, map_from_way), things, echoes, place);
@@ -254,7 +264,7 @@ LocateLooks::Progress LocateLooks::Approach(MissionControl& control, PlaceEviden
     return Next(control, evidence);
   }
   looks_.Reset();
-  n_good_ = n_elsewhere_ = 0;
+  n_good_ = n_elsewhere_ = n_missed_ = n_models_ = 0;
   control.SendModel(*MakeLandmark(plan_, view_->door.id));
   stage_ = view_->path.points.empty() ? Stage::kLooking : Stage::kDriving;
   if (stage_ == Stage::kLooking) return Progress::kUnderWay;
@@ -277,6 +287,7 @@ LocateLooks::Progress LocateLooks::Look(MissionControl& control, PlaceEvidence& 
   for (const LookResult& result : control.heard().looks) looks_.OnResult(result);
   const auto result = looks_.Settle(control.now());
   if (result && result->ok) ++n_good_;
+  if (result && IsMiss(*result)) ++n_missed_;
   if (result && result->elsewhere) ++n_elsewhere_;
   if (n_elsewhere_ >= kGoodLooks && !hypotheses_[test_].wide) {
     hypotheses_[test_].wide = true;
@@ -284,12 +295,15 @@ LocateLooks::Progress LocateLooks::Look(MissionControl& control, PlaceEvidence& 
     stage_ = Stage::kPlacing;
     return Progress::kUnderWay;
   }
-  if (result && result->no_model) control.SendModel(*MakeLandmark(plan_, view_->door.id));
+  if (result && result->no_model) {
+    control.SendModel(*MakeLandmark(plan_, view_->door.id));
+    if (++n_models_ <= kMostModels) looks_.ForgetFailures();  // it is on its way
+  }
   if (n_good_ >= kGoodLooks) return Seen(control, evidence);
   if (looks_.Exhausted() && stage_ == Stage::kLooking) {
     PlaceHypothesis& tested = hypotheses_[test_];
     Spend(tested);
-    if (n_good_ == 0) tested.missed += MissedBy(tested);
+    if (n_good_ == 0 && n_missed_ >= kGoodLooks) tested.missed += MissedBy(tested);
     return Next(control, evidence);
   }
   const bool in_sight = stage_ == Stage::kLooking || IsInPassing(control.heard().pose->map_from_base);
@@ -305,8 +319,9 @@ LocateLooks::Progress LocateLooks::Seen(MissionControl& control, PlaceEvidence& 
   const Pose2 place = tested.map_from_way * evidence.log().way_from_base();
   if (stage_ == Stage::kDriving) control.OrderPath({}, 0);
   const auto& found = evidence.Search();
-  const bool fits = std::any_of(found.begin(), found.end(),
-                                [&](const PlaceCandidate& c) { return AreOne(c.map_from_base, place); });
+  const bool fits = found.empty() || std::any_of(found.begin(), found.end(), [&](const PlaceCandidate& c) {
+                      return AreOne(c.map_from_base, place);
+                    });
   if (!fits) {
     tested.views = config_.most_views;
     return Next(control, evidence);
@@ -332,8 +347,10 @@ LocateLooks::Progress LocateLooks::OnBlocked(MissionControl& control, PlaceEvide
   if (stage_ == Stage::kBackingOff) return Approach(control, evidence);
   stage_ = Stage::kBackingOff;
   PlannedPath path;
-  for (const Pose2& point : WayBack(evidence.log().way(), config_.back_m))
+  // Stopped again, it goes back farther.
+  for (const Pose2& point : WayBack(evidence.log().way(), tested.stops * config_.back_m))
     path.points.push_back(way_from_told.Inverse() * point);
+  path.leeway.assign(path.points.size(), {kLeastLeeway_m, kLeastLeeway_m});
   control.OrderPath(FirstPart(std::move(path)), config_.speed_m_s);
   return Progress::kUnderWay;
 }

@@ -113,7 +113,9 @@ class LocateLooks {
   std::optional<DoorView> view_;
   std::vector<Pose2> sightings_;  ///< doors that were seen: way_from_door
   int n_good_ = 0;                ///< looks that found the door ...
-  int n_elsewhere_ = 0;           ///< ... and that found it beside where it was expected
+  int n_elsewhere_ = 0;           ///< ... that found it beside where it was expected ...
+  int n_missed_ = 0;              ///< ... that found none ...
+  int n_models_ = 0;              ///< ... and for which the head had no model, or gave no answer
   std::string doing_;
 };
 

@@ -118,7 +118,7 @@ TEST(LegChoice, TheBaseTurnsAlongAWallOfWhichMuchWasHeard) {
   DrivenWay way = Standing();
   way.pieces = {PieceAt(0, -1.5, 30, 2)};
   EXPECT_NEAR(ChooseLeg({}, way, {})->yaw, Radians(30), 1e-9);
-  way.pieces = {PieceAt(0, -1.5, 30, 0.5)};
+  way.pieces = {PieceAt(0, -1.5, 30, 1)};
   EXPECT_NEAR(ChooseLeg({}, way, {})->yaw, 0, 1e-9);
 }
 
@@ -143,6 +143,17 @@ TEST(LegChoice, ALegThatIsLongerThanOneOfThePlacesAllowsIsWorthMore) {
   ASSERT_TRUE(dut);
   EXPECT_GT(dut->x, 2.1);
   EXPECT_NEAR(dut->y, 0, 1e-6);
+}
+
+TEST(LegChoice, AWayWithoutLoopsLeadsBackPastWhereTheBaseWentToAndFro) {
+  std::vector<Pose2> trail;
+  for (int i = 0; i <= 5; ++i) trail.push_back({0.2 * i, 0, 0});
+  for (int n = 0; n < 4; ++n)
+    for (const double x_m : {0.8, 0.6, 0.8, 1.0}) trail.push_back({x_m, 0.03, 0.05});
+  const auto dut = WithoutLoops(trail);
+  EXPECT_LE(dut.size(), 7U);
+  EXPECT_EQ(dut.front().x, 0);
+  EXPECT_EQ(dut.back().x, 1);
 }
 
 }  // namespace
