@@ -125,8 +125,14 @@ void LocateLooks::Weigh() {
 /// Whether a place whose door was seen is so much likelier than every other.
 bool LocateLooks::Leads(std::size_t which) const {
   if (!hypotheses_[which].confirmed || hypotheses_[which].seen > 0) return false;
-  for (std::size_t i = 0; i < hypotheses_.size(); ++i)
-    if (i != which && hypotheses_[i].weight() > hypotheses_[which].weight() - config_.lead) return false;
+  // That a rival's side was not seen is little: now and then the head takes one side for the other, and every
+  // second view of a door that is there shows none. The walls have to tell the rest.
+  const double needed = hypotheses_[which].weight() - config_.lead;
+  for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
+    const PlaceHypothesis& rival = hypotheses_[i];
+    if (i != which && rival.score - rival.seen - std::min(rival.missed, config_.other_side) > needed)
+      return false;
+  }
   return true;
 }
 
@@ -179,7 +185,7 @@ bool LocateLooks::IsToBeLookedAt(const PlaceHypothesis& hypothesis) const {
          hypothesis.stops <= config_.most_stops;
 }
 
-/// What speaks against a place of which a view has shown no door: much, where the other side of it was seen.
+/// What speaks against a place of which a view has shown no door: more, where the other side of it was seen.
 double LocateLooks::MissedBy(const PlaceHypothesis& hypothesis) const {
   const bool other_side = std::any_of(sightings_.begin(), sightings_.end(), [&](const Pose2& way_from_door) {
     return DoorViews::AreAtOnePlace(view_->door.map_from_door(), hypothesis.map_from_way * way_from_door);

