@@ -208,6 +208,7 @@ LocateLooks::Progress LocateLooks::Next(MissionControl& control, PlaceEvidence& 
   // Of one that was seen beside its place only the look itself tells where it is.
   if (!order.empty() && Leads(order.front()) && !hypotheses_[order.front()].wide) {
     Place(control, evidence, order.front());
+    doing_ = seen_;
     stage_ = Stage::kConcluding;
     return Progress::kUnderWay;
   }
@@ -254,7 +255,9 @@ LocateLooks::Progress LocateLooks::Step(MissionControl& control, PlaceEvidence& 
       return Look(control, evidence);
     case Stage::kConcluding:
       if (control.place_refused()) return Progress::kRefused;
-      if (!control.IsPlacing()) return Progress::kSeen;
+      // The pose that is told then is one of after it.
+      if (!control.IsPlacing() && heard.corrected && heard.pose->stamp > *heard.corrected)
+        return Progress::kSeen;
       break;
   }
   return Progress::kUnderWay;
@@ -332,7 +335,7 @@ LocateLooks::Progress LocateLooks::Seen(MissionControl& control, PlaceEvidence& 
     tested.views = config_.most_views;
     return Next(control, evidence);
   }
-  doing_ = fmt::format("door '{}' seen", view_->door.name);
+  doing_ = seen_ = fmt::format("door '{}' seen", view_->door.name);
   sightings_.push_back(tested.map_from_way.Inverse() * view_->door.map_from_door());
   Spend(tested);
   tested.confirmed = true;

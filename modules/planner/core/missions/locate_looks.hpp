@@ -116,7 +116,7 @@ class LocateLooks {
   int n_elsewhere_ = 0;           ///< ... that found it beside where it was expected ...
   int n_missed_ = 0;              ///< ... that found none ...
   int n_models_ = 0;              ///< ... and for which the head had no model, or gave no answer
-  std::string doing_;
+  std::string doing_, seen_;      ///< seen_: as it was when a door was seen last
 };
 
 }  // namespace priamos::planner
