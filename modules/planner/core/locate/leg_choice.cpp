@@ -13,7 +13,9 @@ constexpr double kStep_m = 0.25;
 constexpr double kWidened_m = 0.4;  ///< a wall goes on beside what was heard of it
 constexpr double kClosedNear_m = 0.4, kClosedCos = 0.87;
 constexpr double kSlanted_m = 0.3;
-constexpr double kBeside_m = 0.1;  ///< lines of a way back, of the way driven
+constexpr double kHalfBase_m = 0.45;                ///< between half its width and half its length
+constexpr double kBack_m = 0.12, kBack_rad = 0.15;  ///< a base so near to where it was is back there
+constexpr double kBeside_m = 0.1;                   ///< lines of a way back, of the way driven
 
 /// How far it is to a piece from `from` in a direction of length 1.
 double DistanceTo(const HeardPiece& piece, const Eigen::Vector2d& from, const Eigen::Vector2d& ray) {
@@ -30,10 +32,18 @@ double AxisOf(const DrivenWay& way) {
   return way.pieces.empty() ? way.base().yaw : way.pieces.front().way_from_middle.yaw;
 }
 
+/// How far the middle of a base gets before it meets a thing.
+double DistanceTo(const Rectangle& thing, const Eigen::Vector2d& from, const Eigen::Vector2d& ray) {
+  const Eigen::Vector2d to = thing.map_from_centre.translation() - from;
+  const double reach_m = thing.half_m.minCoeff() + kHalfBase_m, ahead_m = ray.dot(to);
+  if (ahead_m <= 0 || std::abs(Cross(ray, to)) > reach_m) return INFINITY;
+  return std::max(0.0, ahead_m - reach_m);
+}
+
 class Chooser {
  public:
-  Chooser(const LegChoiceConfig& config, const DrivenWay& way, const std::vector<ClosedWay>& closed)
-      : config_(config), way_(way), closed_(closed), axis_(AxisOf(way)) {}
+  Chooser(const LegChoiceConfig& config, const DrivenWay& way, const LegHints& hints)
+      : config_(config), way_(way), hints_(hints), axis_(AxisOf(way)) {}
 
   struct Leg {
     Pose2 end;
@@ -51,22 +61,44 @@ class Chooser {
       // Of two legs that show as much, the one ahead.
       const double ahead = 0.1 * std::cos(angle - from.yaw);
       const double slanted = eighth % 2 == 1 ? kSlanted_m : 0;  // fewer walls are abeam of the base
-      const double new_m = New_m(from.translation(), ray, length_m) + ahead - slanted;
+      const double told = config_.told_gain * Told_m(from.translation(), ray, length_m);
+      const double new_m = New_m(from.translation(), ray, length_m) + told + ahead - slanted;
       if (new_m <= (best ? best->new_m : config_.least_new_m)) continue;
       const Eigen::Vector2d end = from.translation() + length_m * ray;
-      best = Leg{{end.x(), end.y(), from.yaw}, new_m};
+      best = Leg{{end.x(), end.y(), Aligned(from.yaw)}, new_m};
     }
     return best;
   }
 
  private:
   double Free_m(const Eigen::Vector2d& at, const Eigen::Vector2d& ray, bool last) const {
-    for (const ClosedWay& closed : closed_)
+    for (const ClosedWay& closed : hints_.closed)
       if ((closed.at - at).norm() < kClosedNear_m && closed.towards.dot(ray) > kClosedCos) return 0;
     double free_m = INFINITY;
     for (const HeardPiece& piece : way_.pieces)
       free_m = std::min(free_m, DistanceTo(piece, at, ray) - config_.keep_m);
-    return std::min(free_m, last && IsOnward(ray) ? config_.longest_m : config_.first_m);
+    for (const Rectangle& thing : hints_.things) free_m = std::min(free_m, DistanceTo(thing, at, ray));
+    const double short_m = std::min(free_m, config_.first_m), long_m = std::min(free_m, config_.longest_m);
+    const bool goes_on = last && IsOnward(ray);
+    return goes_on || Told_m(at, ray, long_m) > Told_m(at, ray, short_m) ? long_m : short_m;
+  }
+
+  /// By how much the rivals differ in how far such a leg can be driven.
+  double Told_m(const Eigen::Vector2d& from, const Eigen::Vector2d& ray, double length_m) const {
+    if (hints_.rivals.size() < 2) return 0;
+    double least_m = length_m, most_m = 0;
+    for (const Pose2& rival : hints_.rivals) {
+      const double free_m = hints_.plan->Free_m(rival * from, rival.rotation() * ray, length_m);
+      least_m = std::min(least_m, free_m);
+      most_m = std::max(most_m, free_m);
+    }
+    return most_m - least_m;
+  }
+
+  /// The nearest heading along or across the walls.
+  double Aligned(double yaw) const {
+    if (way_.pieces.empty() || way_.pieces.front().length_m < config_.aligned_m) return yaw;
+    return WrapAngle(axis_ + std::round((yaw - axis_) / (kPi / 2)) * kPi / 2);
   }
 
   /// How much of a leg lies in what is not known.
@@ -97,7 +129,7 @@ class Chooser {
 
   const LegChoiceConfig& config_;
   const DrivenWay& way_;
-  const std::vector<ClosedWay>& closed_;
+  const LegHints& hints_;
   double axis_;
 };
 
@@ -123,13 +155,27 @@ void LegChoiceConfig::Describe(Archive& a) {
   a.Number("seen_m", seen_m, {"m", 0.2, 5, "what lies nearer to the way driven is known"});
   a.Number("least_new_m", least_new_m, {"m", 0.1, 5, "of a leg, in unknown surroundings"});
   a.Number("back_gain", back_gain, {"-", 0, 2, "of it, for each metre driven back to where it begins"});
+  a.Number("told_gain", told_gain, {"-", 0, 10, "of a leg, per metre by which places differ in its length"});
+  a.Number("aligned_m", aligned_m, {"m", 0.2, 100, "of a wall, along which the base then turns"});
 }
 
-std::optional<Pose2> ChooseLeg(const LegChoiceConfig& config, const DrivenWay& way,
-                               const std::vector<ClosedWay>& closed) {
-  const auto best = Chooser(config, way, closed).Best(way.base(), true);
+std::optional<Pose2> ChooseLeg(const LegChoiceConfig& config, const DrivenWay& way, const LegHints& hints) {
+  const auto best = Chooser(config, way, hints).Best(way.base(), true);
   if (!best) return std::nullopt;
   return best->end;
+}
+
+std::vector<Pose2> WithoutLoops(const std::vector<Pose2>& trail) {
+  std::vector<Pose2> kept;
+  for (const Pose2& spot : trail) {
+    const auto same = std::find_if(kept.begin(), kept.end(), [&](const Pose2& before) {
+      return (before.translation() - spot.translation()).norm() < kBack_m &&
+             std::abs(WrapAngle(before.yaw - spot.yaw)) < kBack_rad;
+    });
+    if (same != kept.end()) kept.erase(same + 1, kept.end());
+    kept.push_back(spot);
+  }
+  return kept;
 }
 
 std::vector<Pose2> AlongTrail(const std::vector<Pose2>& trail, std::size_t from, std::size_t to) {
@@ -141,20 +187,20 @@ std::vector<Pose2> AlongTrail(const std::vector<Pose2>& trail, std::size_t from,
   return points;
 }
 
-std::vector<Pose2> ChooseWayBack(const LegChoiceConfig& config, const DrivenWay& way,
-                                 const std::vector<ClosedWay>& closed) {
-  const Chooser chooser(config, way, closed);
+std::vector<Pose2> ChooseWayBack(const LegChoiceConfig& config, const DrivenWay& way, const LegHints& hints) {
+  const Chooser chooser(config, way, hints);
+  const std::vector<Pose2> trail = WithoutLoops(way.trail);
   std::optional<std::size_t> best;
   double most = 0, back_m = 0;
-  for (std::size_t i = way.trail.size() - 1; i-- > 0;) {
-    back_m += (way.trail[i + 1].translation() - way.trail[i].translation()).norm();
-    const auto leg = chooser.Best(way.trail[i], false);
+  for (std::size_t i = trail.size() - 1; i-- > 0;) {
+    back_m += (trail[i + 1].translation() - trail[i].translation()).norm();
+    const auto leg = chooser.Best(trail[i], false);
     if (!leg || leg->new_m - config.back_gain * back_m <= most) continue;
     most = leg->new_m - config.back_gain * back_m;
     best = i;
   }
   if (!best) return {};
-  return AlongTrail(way.trail, way.trail.size() - 1, *best);
+  return AlongTrail(trail, trail.size() - 1, *best);
 }
 
 }  // namespace priamos::planner

@@ -21,6 +21,7 @@ bool IsDrivenOver(const HeardPiece& piece, const std::vector<Pose2>& trail) {
 
 void PlaceEvidence::Begin(Time now) {
   log_.Begin(now);
+  met_.Reset();
   searched_ = 0;
   searched_at_m_ = 0;
   found_.clear();
@@ -48,9 +49,16 @@ std::vector<PlaceCandidate> PlaceEvidence::SearchWithin(double margin) const {
   return FindPlaces(config, plan_, log_.way());
 }
 
-bool PlaceEvidence::AreFew(int most) const {
-  return !found_.empty() && found_.size() <= std::size_t(most) &&
-         std::all_of(found_.begin(), found_.end(), [](const PlaceCandidate& c) { return c.IsHeld(); });
+std::vector<PlaceCandidate> PlaceEvidence::Rivals(double lead) const {
+  std::vector<PlaceCandidate> rivals;
+  for (const PlaceCandidate& c : found_)
+    if (c.score >= found_.front().score - lead) rivals.push_back(c);
+  return rivals;
+}
+
+int PlaceEvidence::CountHeld() const {
+  return static_cast<int>(
+      std::count_if(found_.begin(), found_.end(), [](const PlaceCandidate& c) { return c.IsHeld(); }));
 }
 
 LearnedWalls WallsAt(const DrivenWay& way, const Pose2& map_from_way) {

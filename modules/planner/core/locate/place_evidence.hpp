@@ -7,6 +7,7 @@
 #include "common/ground_plan.hpp"
 #include "common/learned/learned_walls.hpp"
 #include "planner/core/locate/driven_way.hpp"
+#include "planner/core/locate/met_things.hpp"
 #include "planner/core/locate/place_plan.hpp"
 #include "planner/core/locate/place_search.hpp"
 
@@ -33,10 +34,16 @@ class PlaceEvidence {
   std::vector<PlaceCandidate> SearchWithin(double margin) const;
   /// As Search() left them, where the base was then.
   const std::vector<PlaceCandidate>& found() const { return found_; }
-  /// Whether there are candidates, `most` of them at most, and the walls hold each.
-  bool AreFew(int most) const;
+  /// Those that are worse than the best by no more than `lead`. One that is farther behind is out as soon as
+  /// something else speaks for the best.
+  std::vector<PlaceCandidate> Rivals(double lead) const;
+  /// Candidates that the walls hold: only from a place there is a view.
+  int CountHeld() const;
 
   const WayLog& log() const { return log_; }
+  /// What the base met, frame of the way.
+  const MetThings& met() const { return met_; }
+  MetThings& met() { return met_; }
   const PlacePlan& plan() const { return plan_; }
   /// When walls were told last.
   Time changed() const { return changed_; }
@@ -45,6 +52,7 @@ class PlaceEvidence {
   PlaceSearchConfig config_;
   PlacePlan plan_;
   WayLog log_;
+  MetThings met_;
   std::size_t searched_ = 0;  ///< revision of the log
   double searched_at_m_ = 0;  ///< way driven by then
   std::vector<PlaceCandidate> found_;

@@ -66,6 +66,12 @@ bool PlacePlan::IsInWall(const Eigen::Vector2d& middle) const {
   return in_wall_[std::size_t(row) * std::size_t(columns_) + std::size_t(column)];
 }
 
+double PlacePlan::Free_m(const Eigen::Vector2d& from, const Eigen::Vector2d& ray, double most_m) const {
+  for (double at_m = 0; at_m < most_m; at_m += kCell_m)
+    if (IsInWall(from + at_m * ray)) return at_m;
+  return most_m;
+}
+
 bool PlacePlan::Hides(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
   return std::any_of(walls_.begin(), walls_.end(), [&](const Rectangle& wall) {
     const Eigen::Vector2d along(wall.half_m.x(), 0);

@@ -33,6 +33,9 @@ class PlacePlan {
   /// Whether the middle of a base is there where the plan has a wall, or so near to it that the base would
   /// have to stand in it, whatever the plan's errors.
   bool IsInWall(const Eigen::Vector2d& middle) const;
+  /// How far the middle of a base gets from a place in a direction of length 1 before it is in a wall,
+  /// `most_m` at most.
+  double Free_m(const Eigen::Vector2d& from, const Eigen::Vector2d& ray, double most_m) const;
   /// Whether a wall of the plan stands between two places.
   bool Hides(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const;
 

@@ -12,6 +12,7 @@ void LocateLegsConfig::Describe(Archive& a) {
   a.Integer("most_legs", most_legs, {"-", 2, 200, "legs driven in search of walls"});
   a.Integer("same_legs", same_legs, {"-", 1, 20, "legs without fewer candidates that end the search"});
   a.Number("same_m", same_m, {"m", 1, 100, "driven at least before that ends it"});
+  a.Number("lead", lead, {"-", 0, 50, "log-odds by which a candidate is behind that counts for nothing"});
   a.Integer("few", few, {"-", 1, 20, "candidates that are looked at without another leg"});
   a.Integer("few_matched", few_matched, {"-", 2, 50, "walls that the best of them has by then"});
   a.Section("choice", choice, "where to drive without a map");
@@ -21,15 +22,26 @@ void LocateLegs::Reset() {
   *this = LocateLegs(config_);
 }
 
-bool LocateLegs::Next(MissionControl& control, const PlaceEvidence& evidence) {
+std::vector<Pose2> LocateLegs::Choose(const PlaceEvidence& evidence, LegHints hints) const {
+  const DrivenWay way = evidence.log().way();
+  const auto& stops = evidence.met().stops();
+  hints.things.assign(stops.begin() + static_cast<std::ptrdiff_t>(forgiven_), stops.end());
+  if (const auto leg = ChooseLeg(config_.choice, way, hints)) return {*leg};
+  return ChooseWayBack(config_.choice, way, hints);
+}
+
+bool LocateLegs::Next(MissionControl& control, const PlaceEvidence& evidence, std::vector<Pose2> rivals) {
   const WayLog& log = evidence.log();
   if (log.driven_m() > config_.most_m || legs_ >= config_.most_legs) return false;
-  const DrivenWay way = log.way();
-  std::vector<Pose2> points;
-  if (const auto leg = ChooseLeg(config_.choice, way, closed_))
-    points = {*leg};
-  else
-    points = ChooseWayBack(config_.choice, way, closed_);
+  LegHints hints{closed_, {}, std::move(rivals), &evidence.plan()};
+  std::vector<Pose2> points = Choose(evidence, hints);
+  if (points.empty() && !forgave_) {
+    forgave_ = true;
+    forgiven_ = evidence.met().stops().size();
+    closed_.clear();
+    hints.closed.clear();
+    points = Choose(evidence, std::move(hints));
+  }
   if (points.empty()) return false;
   ++legs_;
   towards_ = (points.front().translation() - log.way_from_base().translation()).normalized();
@@ -41,12 +53,16 @@ bool LocateLegs::Next(MissionControl& control, const PlaceEvidence& evidence) {
 }
 
 bool LocateLegs::IsEnough(const PlaceEvidence& evidence) {
-  const auto& found = evidence.found();
-  same_legs_ = !found.empty() && found.size() == count_before_ ? same_legs_ + 1 : 0;
-  count_before_ = found.size();
-  if (found.size() == 1 && found.front().IsPoint()) return true;
-  if (evidence.AreFew(config_.few) && found.front().matched >= config_.few_matched) return true;
-  return !found.empty() && same_legs_ >= config_.same_legs && evidence.log().driven_m() >= config_.same_m;
+  const auto rivals = evidence.Rivals(config_.lead);
+  same_legs_ = !rivals.empty() && rivals.size() == count_before_ ? same_legs_ + 1 : 0;
+  count_before_ = rivals.size();
+  if (rivals.empty()) return false;
+  const bool held =
+      std::all_of(rivals.begin(), rivals.end(), [](const PlaceCandidate& c) { return c.IsHeld(); });
+  if (evidence.found().size() == 1 && rivals.front().IsPoint()) return true;
+  if (held && rivals.size() <= std::size_t(config_.few) && rivals.front().matched >= config_.few_matched)
+    return true;
+  return same_legs_ >= config_.same_legs && evidence.log().driven_m() >= config_.same_m;
 }
 
 void LocateLegs::OnBlocked(const PlaceEvidence& evidence) {

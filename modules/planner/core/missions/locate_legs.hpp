@@ -19,7 +19,8 @@ struct LocateLegsConfig {
   int most_legs = 40;
   int same_legs = 2;    ///< legs after which candidates that stay the same do not get fewer
   double same_m = 6;    ///< and so far driven by then
-  int few = 4;          ///< candidates that looks decide quicker than legs ...
+  double lead = 5;      ///< log-odds by which a candidate is behind that is out once a door was seen
+  int few = 4;          ///< candidates within that, which looks decide quicker than legs ...
   int few_matched = 4;  ///< ... the best of which has so many walls
   LegChoiceConfig choice;
 
@@ -34,7 +35,9 @@ class LocateLegs {
 
   void Reset();
   /// Orders the next leg, or the way back to where it begins; false: there is none, or it was driven enough.
-  bool Next(MissionControl& control, const PlaceEvidence& evidence);
+  /// `rivals` (map_from_way) are the places that it should tell apart. What stopped the base closes ways
+  /// until nothing else is left; then it is tried once more.
+  bool Next(MissionControl& control, const PlaceEvidence& evidence, std::vector<Pose2> rivals);
   /// The base has come to the end of what was ordered. Whether the places that are left are worth a look, or
   /// do not get fewer: then it stops.
   bool IsEnough(const PlaceEvidence& evidence);
@@ -43,11 +46,15 @@ class LocateLegs {
   int driven() const { return legs_; }
 
  private:
+  std::vector<Pose2> Choose(const PlaceEvidence& evidence, LegHints hints) const;
+
   LocateLegsConfig config_;
   std::vector<ClosedWay> closed_;
   Eigen::Vector2d towards_{1, 0};  ///< of the leg that is driven, frame of the way
   int legs_ = 0, same_legs_ = 0;
-  std::size_t count_before_ = 0;  ///< candidates at the end of the leg before
+  std::size_t count_before_ = 0;  ///< rivals at the end of the leg before
+  std::size_t forgiven_ = 0;      ///< stops that close no way any more ...
+  bool forgave_ = false;          ///< ... because nothing else was left, once
 };
 
 }  // namespace priamos::planner

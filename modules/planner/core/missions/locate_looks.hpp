@@ -17,12 +17,12 @@ namespace priamos::planner {
 /// How candidates are looked at.
 struct LocateLooksConfig {
   double speed_m_s = 0.25;
-  double lead = 5;       ///< log-odds by which a place whose door was seen is believed
-  double missed = 1.5;   ///< log-odds against a place where a door was not seen: things may hide it
-  int most_views = 4;    ///< of the doors of one place
-  int most_stops = 4;    ///< on the ways to them
-  double back_m = 0.5;   ///< it goes back so far from what stopped it
-  double thing_m = 0.4;  ///< size that this is taken to have
+  double lead = 5;        ///< log-odds by which a place whose door was seen is believed
+  double missed = 1.5;    ///< log-odds against a place where a door was not seen: things may hide it
+  double other_side = 2;  ///< and against one from which the other side of a door that was seen should be
+  int most_views = 4;     ///< of the doors of one place
+  int most_stops = 4;     ///< on the ways to them
+  double back_m = 0.5;    ///< it goes back so far from what stopped it
   LookConfig looks{.timeout_s = 5, .failures = 4, .looks = 16};
 
   void Describe(Archive& a);
@@ -37,7 +37,9 @@ struct PlaceHypothesis {
   double seen = 0;    ///< ... and by doors that were seen where it has none
   int matched = 0;
   int views = 0, stops = 0;
-  bool wide = false;  ///< its door was seen, but not where it was expected
+  bool wide = false;       ///< its door was seen, but not where it was expected
+  bool held = true;        ///< it is a place; of a stretch no look shows anything
+  bool confirmed = false;  ///< its own door was seen, from its own side
   std::vector<SpentView> spent{};
 
   double weight() const { return score - missed - seen; }
@@ -45,9 +47,10 @@ struct PlaceHypothesis {
 
 /// Decides between candidates by the doors that are seen from some of them and not from others: tells the
 /// robot that it is at the likeliest, drives to where it sees such a door, and looks. A door that is seen
-/// twice rules out the places that have none there, and one that leads by then is believed; a door that is
-/// not seen makes its place less likely, and the likeliest is next, from elsewhere. What stops the base is
-/// gone around, from some way back.
+/// twice rules out the places that have none there, and one that leads by then is believed, if it was its own
+/// door, from its own side; a door that is not seen makes its place less likely, and the likeliest is next,
+/// from elsewhere. The door is looked at on the way to a view, too. What is to be seen from where the base
+/// stands is looked at before it drives. What stops the base is gone around, from some way back.
 class LocateLooks {
  public:
   /// kSeen: the place of tested() is believed; the robot believes to be there.
@@ -66,6 +69,10 @@ class LocateLooks {
   /// Something is in the way.
   Progress OnBlocked(MissionControl& control, PlaceEvidence& evidence);
 
+  /// Whether it drives to a view, or back from what stopped it.
+  bool IsOnItsWay() const { return stage_ == Stage::kDriving || stage_ == Stage::kBackingOff; }
+  /// The places that none is ahead of by the lead, likeliest first: map_from_way.
+  std::vector<Pose2> Rivals() const;
   /// Whether a door was seen, but places are left that have one there.
   bool IsUndecided() const;
   const std::vector<PlaceHypothesis>& hypotheses() const { return hypotheses_; }
@@ -79,6 +86,7 @@ class LocateLooks {
   enum class Stage { kPlacing, kDriving, kBackingOff, kLooking, kConcluding };
 
   Progress Approach(MissionControl& control, PlaceEvidence& evidence);
+  bool IsInPassing(const Pose2& map_from_base) const;
   Progress Look(MissionControl& control, PlaceEvidence& evidence);
   Progress Seen(MissionControl& control, PlaceEvidence& evidence);
   void Weigh();
@@ -86,11 +94,15 @@ class LocateLooks {
   bool IsSeen(const PlaceHypothesis& hypothesis) const;
   std::vector<std::size_t> ByWeight() const;
   void Place(MissionControl& control, const PlaceEvidence& evidence, std::size_t which);
-  std::optional<DoorView> ViewOf(std::size_t which, const Pose2& place, const PlaceEvidence& evidence);
+  enum class From { kHere, kAnywhere };
+  std::optional<DoorView> ViewOf(std::size_t which, const Pose2& place, const PlaceEvidence& evidence,
+                                 From from);
+  double MissedBy(const PlaceHypothesis& hypothesis) const;
+  bool IsToBeLookedAt(const PlaceHypothesis& hypothesis) const;
+  Progress Test(MissionControl& control, PlaceEvidence& evidence, std::size_t which, DoorView view);
   void Spend(PlaceHypothesis& hypothesis);
 
   LocateLooksConfig config_;
-  Footprint footprint_;
   GroundPlan plan_;
   DoorViews views_;
   LookSequence looks_;
@@ -99,11 +111,12 @@ class LocateLooks {
   std::size_t test_ = 0;
   std::optional<std::size_t> placed_;  ///< the robot believes to be there
   std::optional<DoorView> view_;
-  std::vector<Pose2> sightings_;   ///< doors that were seen: way_from_door
-  std::vector<Rectangle> things_;  ///< that stopped the base, frame of the way
-  int n_good_ = 0;                 ///< looks that found the door ...
-  int n_elsewhere_ = 0;            ///< ... and that found it beside where it was expected
-  std::string doing_;
+  std::vector<Pose2> sightings_;  ///< doors that were seen: way_from_door
+  int n_good_ = 0;                ///< looks that found the door ...
+  int n_elsewhere_ = 0;           ///< ... that found it beside where it was expected ...
+  int n_missed_ = 0;              ///< ... that found none ...
+  int n_models_ = 0;              ///< ... and for which the head had no model, or gave no answer
+  std::string doing_, seen_;      ///< seen_: as it was when a door was seen last
 };
 
 }  // namespace priamos::planner

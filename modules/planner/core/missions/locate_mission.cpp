@@ -29,6 +29,7 @@ void LocateMissionConfig::Describe(Archive& a) {
   a.Number("alone_margin", alone_margin, {"-", 1, 100, "margin at which walls alone are believed"});
   a.Integer("alone_walls", alone_walls, {"-", 2, 50, "number of walls for that"});
   a.Number("stands_s", stands_s, {"s", 1, 60, "a robot that comes no farther for so long is blocked"});
+  a.Number("thing_m", thing_m, {"m", 0.1, 3, "size that something in the way is taken to have"});
   a.Number("drift_m", drift_m, {"m", 0.1, 0.45, "sigma at which the frame of the way begins anew"});
   limits.Describe(a);
   a.Section("search", search, "which places explain what was heard");
@@ -39,6 +40,7 @@ void LocateMissionConfig::Describe(Archive& a) {
 LocateMission::LocateMission(const LocateMissionConfig& config, const RoutePlannerConfig& route,
                              const Footprint& footprint, const GroundPlan& plan)
     : config_(config),
+      footprint_(footprint),
       evidence_(config.search, plan),
       legs_(config.legs),
       looks_(config.looks, route, footprint, plan) {}
@@ -102,6 +104,16 @@ void LocateMission::Listen(const MissionControl& control) {
   if (control.IsPlacing() && stage_ == Stage::kFraming && evidence_.log().empty()) return;
   evidence_.OnPose(heard.pose->stamp, heard.pose->map_from_base, heard.corrected);
   for (const SeenWall& wall : heard.told) evidence_.OnWall(wall, control.now());
+  if (evidence_.log().empty() || !heard.drive || !heard.drive->nearest) return;
+  const ThingNear& nearest = *heard.drive->nearest;
+  evidence_.met().OnEcho(evidence_.log().way_from_base() * nearest.at, nearest.free_m);
+}
+
+/// Something is in the way: it is there for legs and for ways to views.
+void LocateMission::NoteStop(const MissionControl& control) {
+  const Pose2& way_from_told = evidence_.log().way_from_told();
+  if (const auto thing = ThingAhead(control, footprint_, config_.thing_m))
+    evidence_.met().OnStop({way_from_told * thing->map_from_centre, thing->half_m});
 }
 
 /// The robot's pose is wrong, and how well it believes to know it says nothing of the way from here. So the
@@ -119,13 +131,18 @@ bool LocateMission::IsPlaced(const MissionControl& control) const {
   return !control.IsPlacing() && heard.corrected && heard.pose->stamp > *heard.corrected;
 }
 
+bool LocateMission::OrderLeg(MissionControl& control) {
+  if (!legs_.Next(control, evidence_, looks_.Rivals())) return false;
+  stage_ = Stage::kLegs;
+  return true;
+}
+
 void LocateMission::NextLeg(MissionControl& control) {
   if (PositionSigma(control.heard().pose->covariance) > config_.drift_m) return Frame(control);
-  if (!legs_.Next(control, evidence_)) {
+  if (!OrderLeg(control)) {
     stage_ = Stage::kSettling;
     return;
   }
-  stage_ = Stage::kLegs;
   Tell(control, fmt::format("leg {}", legs_.driven()));
 }
 
@@ -148,16 +165,14 @@ bool LocateMission::HasSettled(const MissionControl& control) const {
 void LocateMission::Decide(MissionControl& control) {
   evidence_.Search();
   looks_.Take(evidence_);
-  if (evidence_.AreFew(config_.most_tests)) {
+  const int held = evidence_.CountHeld();
+  if (held > 0 && held <= config_.most_tests) {
     stage_ = Stage::kLooks;
     ++round_;
     return Follow(control, looks_.Next(control, evidence_));
   }
   // What came while the robot stood may show another leg.
-  if (legs_.Next(control, evidence_)) {
-    stage_ = Stage::kLegs;
-    return;
-  }
+  if (OrderLeg(control)) return;
   GiveUp(control,
          looks_.hypotheses().empty() ? "no place on the plan explains what was heard" : Candidates());
 }
@@ -178,10 +193,8 @@ void LocateMission::Follow(MissionControl& control, LocateLooks::Progress progre
 
 /// No door has told: more walls, and doors from elsewhere, may.
 void LocateMission::AfterLooks(MissionControl& control) {
-  if (round_ < config_.rounds && legs_.Next(control, evidence_)) {
-    stage_ = Stage::kLegs;
+  if (round_ < config_.rounds && OrderLeg(control))
     return Tell(control, fmt::format("no door told, leg {}", legs_.driven()));
-  }
   if (looks_.hypotheses().size() == 1) return BelieveWalls(control);
   GiveUp(control, Candidates());
 }
@@ -235,6 +248,7 @@ void LocateMission::OnStop(MissionControl& control, const Stop& stop) {
     control.Fail(stop.reason);
     return GiveBack(control);
   }
+  if (stage_ == Stage::kLegs || (stage_ == Stage::kLooks && looks_.IsOnItsWay())) NoteStop(control);
   if (stage_ == Stage::kLegs) {
     legs_.OnBlocked(evidence_);
     control.OrderPath({}, 0);

@@ -20,6 +20,7 @@ struct LocateMissionConfig {
   double alone_margin = 16;  ///< margin at which walls alone are believed where no door can be seen ...
   int alone_walls = 5;       ///< ... and so many of them
   double stands_s = 8;       ///< a robot that comes no farther on its path for so long is blocked
+  double thing_m = 0.4;      ///< size that what stops it is taken to have
   double drift_m = 0.3;      ///< of the pose, one sigma, at which it counts as exact anew: it is relative
   MissionLimits limits{.resend_path_s = 4, .blocked_s = 3, .silent_s = 8, .limit_s = 800};
   PlaceSearchConfig search;
@@ -49,10 +50,12 @@ class LocateMission : public Mission {
  private:
   enum class Stage { kFraming, kLegs, kSettling, kLooks, kGivingBack };
 
+  void NoteStop(const MissionControl& control);
   bool ComesNoFarther(const MissionControl& control);
   void Listen(const MissionControl& control);
   void Frame(MissionControl& control);
   bool IsPlaced(const MissionControl& control) const;
+  bool OrderLeg(MissionControl& control);
   void NextLeg(MissionControl& control);
   void EndLeg(MissionControl& control);
   bool HasSettled(const MissionControl& control) const;
@@ -67,6 +70,7 @@ class LocateMission : public Mission {
   void Tell(MissionControl& control, const std::string& what) const;
 
   LocateMissionConfig config_;
+  Footprint footprint_;
   PlaceEvidence evidence_;
   LocateLegs legs_;
   LocateLooks looks_;

@@ -75,8 +75,8 @@ TEST(PlaceEvidence, WallsOfBothDirectionsLeaveFewPlaces) {
   // The room is its own image by half a turn.
   EXPECT_NEAR(found[0].score, found[1].score, 0.5);
   for (std::size_t i = 2; i < found.size(); ++i) EXPECT_LT(found[i].score, found[0].score - 3);
-  EXPECT_TRUE(e.dut->AreFew(4));
-  EXPECT_FALSE(e.dut->AreFew(1));
+  EXPECT_EQ(e.dut->Rivals(2).size(), 2U);
+  EXPECT_GE(e.dut->CountHeld(), 2);
   EXPECT_EQ(e.dut->changed(), e.now);
 }
 
@@ -85,7 +85,7 @@ TEST(PlaceEvidence, OneWallIsHeldByNothing) {
   e.DriveTo(4);
   e.Hear(1, 3, 0, 0, 3);
   e.dut->Search();
-  EXPECT_FALSE(e.dut->AreFew(50));
+  EXPECT_EQ(e.dut->CountHeld(), 0);
 }
 
 TEST(PlaceEvidence, AWiderMarginLeavesNoFewerPlaces) {

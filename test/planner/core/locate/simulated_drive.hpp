@@ -89,7 +89,7 @@ class SimulatedDrive {
   /// Looks around by itself: up to so many legs.
   void LookAround(int legs, const LegChoiceConfig& config = {}) {
     for (int i = 0; i < legs; ++i) {
-      const auto leg = ChooseLeg(config, way(), closed_);
+      const auto leg = ChooseLeg(config, way(), {closed_});
       if (!leg) return;
       const Eigen::Vector2d towards =
           (leg->translation() - (way_from_map_ * map_from_base_).translation()).normalized();

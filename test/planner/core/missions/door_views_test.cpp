@@ -69,7 +69,7 @@ TEST(DoorViews, WhatWasHeardBeforeTheDoorIsLookedPast) {
   screen.length_m = 1.2;
   DoorViews dut = Dut();
   const Pose2 place{3, 2.4, 0};
-  dut.Know({.walls = {screen}, .doors = {}}, {}, place);
+  dut.Know({.walls = {screen}, .doors = {}}, {}, {}, place);
   const auto view = dut.Best({place}, {}, {});
   ASSERT_TRUE(view);
   const Eigen::Vector2d from = (view->door.map_from_door() * view->door_from_base).translation();
@@ -83,7 +83,7 @@ TEST(DoorViews, WhatWasHeardBeforeTheDoorIsLookedPast) {
 TEST(DoorViews, ThePlaceFromWhichItCameIsReachedAsItCame) {
   DoorViews dut = Dut();
   const std::vector<Pose2> trail{{4, 2.4, 0}, {3, 2.4, 0}, {2, 2.4, 0}, {1, 2.4, 0}};
-  dut.Know({}, {{{2.2, 2.4, 0}, {0.2, 2.4}}}, trail.back());
+  dut.Know({}, {{{2.2, 2.4, 0}, {0.2, 2.4}}}, {}, trail.back());
   const auto view = dut.Best(trail, {}, {});
   ASSERT_TRUE(view);
   EXPECT_NEAR(view->path.points.back().y, 2.4, 1e-6);
@@ -97,6 +97,45 @@ TEST(DoorViews, AWallOfThePlanHidesADoor) {
   wall.to_m = {5.4, 4.8};
   plan.walls.push_back(wall);
   EXPECT_FALSE(DoorViews({}, {}, plan).Best({{3, 2.4, 0}}, {}, {}));
+}
+
+TEST(DoorViews, TheOtherSideOfADoorLooksDifferent) {
+  const Pose2 place{4, 2.4, 0};
+  // The same place before the door, from behind.
+  const Pose2 behind = Pose2{6, 2.4, kPi} * Pose2{6, 2.4, 0}.Inverse() * place;
+  EXPECT_FALSE(Dut().Best({place}, {behind}, {}));
+  const auto dut = Dut().Best({place}, {behind}, {}, DoorViews::Sides::kDiffer);
+  ASSERT_TRUE(dut);
+  EXPECT_EQ(dut->door.id, 1);
+  EXPECT_EQ(Dut().Here(behind, {place}, {}, DoorViews::Sides::kDiffer)->door.id, 101);
+}
+
+TEST(DoorViews, FromHereIsOnlyWhatIsInSightAsTheBaseStands) {
+  EXPECT_TRUE(Dut().Here({4, 2.4, 0}, {}, {}));
+  EXPECT_FALSE(Dut().Here({4, 2.4, kPi}, {}, {}));
+  EXPECT_FALSE(Dut().Here({1, 2.4, 0}, {}, {}));
+  EXPECT_FALSE(Dut().Here({4, 2.4, 0}, {}, {{1, {-2, 0, 0}}}));
+}
+
+TEST(DoorViews, NoWayLeadsOverWhatWasHeardNear) {
+  DoorViews dut = Dut();
+  const Pose2 place{1, 2.4, 0};
+  const auto before = dut.Best({place}, {}, {});
+  ASSERT_TRUE(before);
+  const Rectangle echo{{before->path.points.back().x, 2.4, 0}, {0.1, 0.1}};
+  dut.Know({}, {}, {echo}, place);
+  const auto after = dut.Best({place}, {}, {});
+  ASSERT_TRUE(after);
+  const Rectangle base{after->path.points.back(), {0.475, 0.39}};
+  EXPECT_GT(Distance(echo, base), 0.09);
+}
+
+TEST(DoorViews, AfterAViewFromOneSideTheNextIsFromTheOther) {
+  const Pose2 place{4, 3.4, -1};
+  const DoorViews dut = Dut();
+  const auto view = dut.Best({place}, {}, {{1, {-1.6, 1.2, 0}}, {1, {-2.2, 0.8, 0}}});
+  ASSERT_TRUE(view);
+  EXPECT_LT(view->door_from_base.y, 0.1);
 }
 
 }  // namespace

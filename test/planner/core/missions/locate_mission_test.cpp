@@ -29,7 +29,9 @@ struct Kidnapped {
   /// Whether the base truly stands before that door, and believes it.
   bool Sees(int id) const {
     const Pose2 door = id == 1 ? Pose2{6, 2.4, 0} : Pose2{6, 2.4, kPi};
-    const Pose2 there = door.Inverse() * robot.truth(), believed = door.Inverse() * robot.Believed();
+    const bool beyond = (robot.truth().x > 6) != (id == 101);
+    const Pose2 there = (sides_alike && beyond ? door * Pose2{0, 0, kPi} : door).Inverse() * robot.truth(),
+                believed = door.Inverse() * robot.Believed();
     return there.x < -1 && there.x > -4 && std::abs(there.y) < 1.5 && std::abs(believed.x - there.x) < 0.4 &&
            std::abs(believed.y - there.y) < 0.4;
   }
@@ -60,6 +62,12 @@ struct Kidnapped {
     }
   }
 
+  bool IsRight() const {
+    const Pose2 off = robot.truth().Inverse() * robot.Believed();
+    return off.translation().norm() < 0.45 && std::abs(off.yaw) < Radians(8);
+  }
+
+  bool sides_alike = false;  ///< the head takes either side of a door for the other one
   int ticks = 0;
   Rng rng{7};
   MissionTable missions;
@@ -75,6 +83,22 @@ TEST(LocateMission, AnAbortTakesThePoseBack) {
   EXPECT_EQ(dut.missions.state().phase, Phase::kFailed);
   for (int i = 0; i < 20; ++i) dut.robot.Step();
   EXPECT_GT(dut.robot.places.back().sigma_m, 1);
+}
+
+TEST(LocateMission, ItFindsOutWhereItIs) {
+  Kidnapped dut({3.5, 1.4, 2});
+  dut.Run(600);
+  EXPECT_EQ(dut.missions.state().phase, Phase::kDone) << dut.missions.state().text;
+  EXPECT_TRUE(dut.IsRight());
+}
+
+TEST(LocateMission, WhereBothSidesOfADoorLookAlikeNoWrongPlaceIsBelieved) {
+  for (const Pose2& truth : {Pose2{4.2, 2.4, 0.3}, Pose2{7.8, 2.2, 3}, Pose2{8.2, 3.2, 1}}) {
+    Kidnapped dut(truth);
+    dut.sides_alike = true;
+    dut.Run(600);
+    EXPECT_TRUE(dut.missions.state().phase != Phase::kDone || dut.IsRight()) << truth.x;
+  }
 }
 
 TEST(LocateMission, APlanWithoutWallsIsRefused) {
