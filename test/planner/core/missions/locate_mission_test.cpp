@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <map>
+#include <utility>
+
 #include "fake_robot.hpp"
 #include "test/planner/core/locate/simulated_drive.hpp"
 #include "test/planner/core/plans.hpp"
@@ -54,11 +57,14 @@ struct Kidnapped {
     if (way_m < 0.05) return false;
     return !ears.IsFree(robot.truth() * Pose2{0.1 * end.x / way_m, 0.1 * end.y / way_m, 0});
   }
+  /// What has not changed is not told again.
   void Tell() {
     int id = 0;
     for (LearnedWall& wall : ears.Told(robot.Believed() * robot.truth().Inverse())) {
+      const LearnedWall before = std::exchange(told[++id], wall);
+      if ((before.from() - wall.from()).norm() < 0.05 && (before.to() - wall.to()).norm() < 0.05) continue;
       wall.seen_s = static_cast<double>(ToUtime(robot.now())) * 1e-6;
-      missions.OnTold({1, ++id, false, wall});
+      missions.OnTold(SeenWall{1, id, false, wall});
     }
   }
 
@@ -69,6 +75,7 @@ struct Kidnapped {
 
   bool sides_alike = false;  ///< the head takes either side of a door for the other one
   int ticks = 0;
+  std::map<int, LearnedWall> told;
   Rng rng{7};
   MissionTable missions;
   SimulatedDrive ears;
@@ -86,10 +93,21 @@ TEST(LocateMission, AnAbortTakesThePoseBack) {
 }
 
 TEST(LocateMission, ItFindsOutWhereItIs) {
-  Kidnapped dut({3.5, 1.4, 2});
-  dut.Run(600);
-  EXPECT_EQ(dut.missions.state().phase, Phase::kDone) << dut.missions.state().text;
-  EXPECT_TRUE(dut.IsRight());
+  for (const Pose2& truth : {Pose2{4.4, 2.4, 0}, Pose2{3.5, 1.4, 0.3}}) {
+    Kidnapped dut(truth);
+    dut.Run(600);
+    EXPECT_EQ(dut.missions.state().phase, Phase::kDone) << dut.missions.state().text;
+    EXPECT_TRUE(dut.IsRight()) << truth.x;
+  }
+}
+
+TEST(LocateMission, ItEndsAndBelievesNoWrongPlace) {
+  for (const Pose2& truth : {Pose2{3.5, 1.4, 0}, Pose2{2.6, 1.4, 0}, Pose2{1.4, 3.4, 0}, Pose2{9.5, 2, 0}}) {
+    Kidnapped dut(truth);
+    dut.Run(600);
+    EXPECT_FALSE(dut.missions.running()) << truth.x;
+    EXPECT_TRUE(dut.missions.state().phase != Phase::kDone || dut.IsRight()) << truth.x;
+  }
 }
 
 TEST(LocateMission, WhereBothSidesOfADoorLookAlikeNoWrongPlaceIsBelieved) {
