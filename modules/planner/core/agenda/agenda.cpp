@@ -161,7 +161,7 @@ void Agenda::EndOrder(AgendaEnd end, std::string text, Time now) {
   current_.reset();
   // A person who cancels one order wants the next one.
   if (end == AgendaEnd::kFailed) CancelWaiting(fmt::format("order {} before it failed", id));
-  if (waiting_.empty()) paused_ = false;
+  if (waiting_.empty()) Resume(now);  // the next order is not to be held by what held this one
 }
 
 void Agenda::CancelWaiting(const std::string& why) {
@@ -175,7 +175,7 @@ void Agenda::Abort(Time now, int id) {
   CancelWaiting("aborted by the operator");
   runner_.End("aborted by the operator");
   runner_.Stand(now);
-  paused_ = false;
+  Resume(now);
   if (!any) state_.text = answer;
   ++changes_;
   if (id != 0 && !IsKnown(id)) Remember({id, 0, 0, AgendaEnd::kDone, 0, answer});

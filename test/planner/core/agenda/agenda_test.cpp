@@ -170,6 +170,22 @@ TEST(Agenda, TheTimeLeftCountsTheStepsToCome) {
   EXPECT_NEAR(*left_s, took_s, 0.3 * took_s);
 }
 
+TEST(Agenda, APauseEndsWithTheOrderThatItHeld) {
+  AgendaRig rig({2.0, 2.4, 0}, ShippedPlan(), {.blackout_s = 20});
+  rig.Order({Go(2.7, 2.4)});
+  rig.robot.silent = true;
+  rig.StepFor(12);
+  rig.dut.Pause(rig.robot.now());
+  rig.StepFor(9);
+  ASSERT_FALSE(rig.dut.running()) << "it failed in the blackout";
+  rig.robot.silent = false;
+  rig.Order({Stand(0), Go(1.5, 2.4)});
+  rig.StepFor(60);
+  EXPECT_FALSE(rig.dut.running());
+  EXPECT_EQ(rig.last().end, AgendaEnd::kDone);
+  EXPECT_NEAR(rig.robot.truth().x, 1.5, 0.01);
+}
+
 /// Whatever people order, pause, cancel and lose on the radio: every order that was taken ends once, in their
 /// order, and when all is over nothing is left to be driven.
 RC_GTEST_PROP(Agenda, EveryOrderEndsOnce, ()) {
