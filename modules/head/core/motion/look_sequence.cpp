@@ -55,14 +55,13 @@ LookSequence::Action LookSequence::Step(bool head_settled, bool head_failed, Tim
   if (exposures_ == Exposures::kRecorded) return StepOnLog(now);
   if (head_failed || Seconds(now - begun_) > config_.age_limit_s) return Action::kGiveUp;
   if (phase_ == Phase::kExposing) {
+    const bool late = Seconds(now - triggered_) >= config_.frame_timeout_s;
     if (!head_settled) {
       phase_ = Phase::kSettling;
-    } else if (HasFirst(wanted_)) {
+    } else if (HasFirst(wanted_) || (late && HasFirst(kPair))) {
       return Action::kUseFrames;
-    } else if (Seconds(now - triggered_) < config_.frame_timeout_s) {
+    } else if (!late) {
       return Action::kWait;
-    } else if (HasFirst(kPair)) {
-      return Action::kUseFrames;
     }
   }
   if (!head_settled) return Action::kWait;

@@ -50,6 +50,7 @@ PlaceHypothesis HypothesisOf(const PlaceCandidate& c, const Pose2& way_from_base
 
 std::vector<Rectangle> On(const Pose2& map_from_way, const std::vector<Rectangle>& things) {
   std::vector<Rectangle> moved;
+  moved.reserve(things.size());
   for (const Rectangle& thing : things) moved.push_back({map_from_way * thing.map_from_centre, thing.half_m});
   return moved;
 }

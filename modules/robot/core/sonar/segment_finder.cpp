@@ -161,6 +161,7 @@ std::vector<PlacedEcho> SegmentFinder::Supporters(const VotedLine& line, const P
   }
   std::sort(together.begin(), together.end());
   std::vector<PlacedEcho> echoes;
+  echoes.reserve(together.size());
   for (const std::size_t index : together) echoes.push_back(waiting_[index].echo);
   return echoes;
 }
