@@ -19,6 +19,12 @@ bool Within(double value, double low, double high) {
   return value >= low && value <= high;  // false for NaN
 }
 
+/// Since 1970, as far as the file of the map goes [us].
+bool IsTime(std::int64_t utime) {
+  constexpr double kLast_us = 1e17;
+  return Within(static_cast<double>(utime), 0, kLast_us);
+}
+
 /// Of a field that is known not to be negative.
 unsigned char Counted(std::int8_t value) {
   return static_cast<unsigned char>(value);
@@ -34,7 +40,7 @@ std::optional<SeenFeature> FromMessage(int store, const feature_t& m) {
                     Within(m.x_m, -kMap_m, kMap_m) && Within(m.y_m, -kMap_m, kMap_m) &&
                     Within(m.yaw_rad, -kYaw, kYaw) && Within(m.length_m, is_point ? 0 : kLeast_m, 6.35) &&
                     Within(m.sigma_across_m, 0, 1.27) && Within(m.sigma_yaw_rad, 0, 0.255) &&
-                    Within(m.rho, -1, 1) && Within(m.sigma_end_m, 0, 0.6) && m.utime_seen >= 0;
+                    Within(m.rho, -1, 1) && Within(m.sigma_end_m, 0, 0.6) && IsTime(m.utime_seen);
   if (!good) return std::nullopt;
   const double seen_s = static_cast<double>(m.utime_seen) * 1e-6;
   if (is_point) return SeenPoint{store, m.id, {m.x_m, m.y_m, m.sigma_across_m, seen_s}};
@@ -57,7 +63,7 @@ std::optional<LearnedDoor> FromMessage(const door_found_t& m) {
   const bool good =
       Within(m.x_m, -kMap_m, kMap_m) && Within(m.y_m, -kMap_m, kMap_m) && Within(m.yaw_rad, -kYaw, kYaw) &&
       Within(m.width_m, 0.3, 2.55) && Within(m.sigma_along_m, 0, 0.63) && Within(m.sigma_across_m, 0, 0.63) &&
-      Within(m.state, 0, 3) && Within(m.log_odds, 0, 31) && Within(m.looks, 1, 63) && m.utime_seen >= 0;
+      Within(m.state, 0, 3) && Within(m.log_odds, 0, 31) && Within(m.looks, 1, 63) && IsTime(m.utime_seen);
   if (!good) return std::nullopt;
   LearnedDoor door;
   door.x_m = m.x_m;
@@ -81,7 +87,7 @@ std::optional<LearnedObject> FromMessage(const scene_object_t& m) {
                     Within(m.width_m, 0, kSize_m) && Within(m.depth_m, 0, kSize_m) &&
                     Within(m.bottom_m, 0, kHeight_m) && Within(m.top_m, m.bottom_m, kHeight_m) &&
                     Within(m.sigma_along_m, 0, kSigma) && Within(m.sigma_across_m, 0, kSigma) &&
-                    Within(m.sigma_yaw_rad, 0, kSigma) && Within(m.looks, 0, 63) && m.utime_seen >= 0;
+                    Within(m.sigma_yaw_rad, 0, kSigma) && Within(m.looks, 0, 63) && IsTime(m.utime_seen);
   const bool has_front = good && (m.kind == scene_object_t::EDGE || m.width_m > 0);
   if (!has_front) return std::nullopt;
   LearnedObject object;

@@ -83,6 +83,7 @@ TEST(FeatureMessage, NumbersOutOfRangeAreNoWall) {
   EXPECT_TRUE(refused([](feature_t& w) { w.rho = 1.5; }));
   EXPECT_TRUE(refused([](feature_t& w) { w.kind = 7; }));
   EXPECT_TRUE(refused([](feature_t& w) { w.utime_seen = -1; }));
+  EXPECT_TRUE(refused([](feature_t& w) { w.utime_seen = std::numeric_limits<std::int64_t>::max(); }));
   EXPECT_TRUE(refused([](feature_t& w) { w.id = -1; }));
   EXPECT_FALSE(FromMessage(0, Wall(4)));
 }
