@@ -114,10 +114,10 @@ void Exploration::Learn(const LearnedWalls& walls, const std::vector<NamedObstac
   Forget();
 }
 
-LearnedWalls Exploration::WallsForWays() const {
+LearnedWalls Exploration::WallsForWays() {
   LearnedWalls walls = SureParts(evidence_.walls);
-  for (const LearnedWall& piece : PresumedWalls(evidence_.walls, evidence_.trail, config_.grid.presumed))
-    walls.walls.push_back(piece);
+  const std::vector<LearnedWall>& presumed = grid().presumed();
+  walls.walls.insert(walls.walls.end(), presumed.begin(), presumed.end());
   return walls;
 }
 

@@ -78,7 +78,7 @@ class Exploration {
   const LearnedWalls& walls() const { return evidence_.walls; }
   /// Those that a way keeps off: as far as they surely reach, and the corners of rooms, through which nothing
   /// leads.
-  LearnedWalls WallsForWays() const;
+  LearnedWalls WallsForWays();
   /// Something that is no wall is here, of which one side is known only: it is made smaller as far as it
   /// would close a way that the base has driven. Returns whether anything is left of it.
   bool AddThing(Rectangle thing);

@@ -35,7 +35,8 @@ void ExploredGridConfig::Describe(Archive& a) {
   a.Section("presumed", presumed, "where walls go on although nobody told so");
 }
 
-ExploredGrid::ExploredGrid(const ExploredGridConfig& config, const ExploredEvidence& evidence) {
+ExploredGrid::ExploredGrid(const ExploredGridConfig& config, const ExploredEvidence& evidence)
+    : presumed_(PresumedWalls(evidence.walls, evidence.trail, config.presumed)) {
   Eigen::AlignedBox2d box;
   for (const Vector2d& at : evidence.trail) box.extend(at);
   if (box.isEmpty()) return;
@@ -46,7 +47,7 @@ ExploredGrid::ExploredGrid(const ExploredGridConfig& config, const ExploredEvide
   nx_ = static_cast<int>(std::ceil(size.x() / kStep_m));
   ny_ = static_cast<int>(std::ceil(size.y() / kStep_m));
   cells_.assign(std::size_t(nx_) * std::size_t(ny_), Cell::kUnknown);
-  Close(config, evidence);
+  Close(evidence);
   std::optional<Vector2d> last;  // the newest counts always
   for (auto at = evidence.trail.rbegin(); at != evidence.trail.rend(); ++at) {
     if (last && (*at - *last).norm() < kApart_m) continue;
@@ -78,10 +79,9 @@ double ExploredGrid::free_m2() const {
   return kStep_m * kStep_m * static_cast<double>(std::count(cells_.begin(), cells_.end(), Cell::kFree));
 }
 
-void ExploredGrid::Close(const ExploredGridConfig& config, const ExploredEvidence& evidence) {
+void ExploredGrid::Close(const ExploredEvidence& evidence) {
   for (const LearnedWall& wall : evidence.walls.walls) CloseWall(wall, false);
-  for (const LearnedWall& piece : PresumedWalls(evidence.walls, evidence.trail, config.presumed))
-    CloseWall(piece, true);
+  for (const LearnedWall& piece : presumed_) CloseWall(piece, true);
   for (const auto* things : {&evidence.things, &evidence.seen})
     for (const Rectangle& thing : *things) CloseThing(thing);
 }

@@ -57,9 +57,11 @@ class ExploredGrid {
   }
   Eigen::Vector2i CellOf(const Eigen::Vector2d& in_map) const;
   double free_m2() const;
+  /// Where walls were taken to go on although nobody told so.
+  const std::vector<LearnedWall>& presumed() const { return presumed_; }
 
  private:
-  void Close(const ExploredGridConfig& config, const ExploredEvidence& evidence);
+  void Close(const ExploredEvidence& evidence);
   void CloseWall(const LearnedWall& wall, bool presumed);
   void CloseThing(const Rectangle& thing);
   void OpenAround(const Eigen::Vector2d& base, double near_m);
@@ -72,6 +74,7 @@ class ExploredGrid {
   Eigen::Vector2d origin_{0, 0};  ///< corner of the first cell
   int nx_ = 0, ny_ = 0;
   std::vector<Cell> cells_;
+  std::vector<LearnedWall> presumed_;
 };
 
 }  // namespace priamos::planner

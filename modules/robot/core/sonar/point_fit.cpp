@@ -72,6 +72,14 @@ double SquaresOfLine(const std::vector<PlacedEcho>& echoes, const Vector2d& plac
   return LineStep(echoes, place, line.x(), line.y(), noise).squares();
 }
 
+/// As PointOverLine(), where the best place and the squares that it leaves are known.
+double Surplus(const std::vector<PlacedEcho>& echoes, const Vector2d& place, double of_point,
+               const RangeNoise& noise) {
+  const double of_line = SquaresOfLine(echoes, place, noise);
+  const double variance = std::max(1.0, std::min(of_point, of_line) / static_cast<double>(echoes.size()));
+  return (of_line - of_point) / variance;
+}
+
 /// The angle at a place within which it was heard [rad].
 double SpreadOf(const std::vector<PlacedEcho>& echoes, const Vector2d& place) {
   const auto direction = [&](const PlacedEcho& echo) {
@@ -107,9 +115,8 @@ bool MayComeFrom(const PlacedEcho& echo, const Vector2d& place, double gate_m, c
 
 double PointOverLine(const std::vector<PlacedEcho>& echoes, const Vector2d& near, const RangeNoise& noise) {
   Vector2d place = near;
-  const double of_point = FindPlace(echoes, place, noise), of_line = SquaresOfLine(echoes, place, noise);
-  const double variance = std::max(1.0, std::min(of_point, of_line) / static_cast<double>(echoes.size()));
-  return (of_line - of_point) / variance;
+  const double of_point = FindPlace(echoes, place, noise);
+  return Surplus(echoes, place, of_point, noise);
 }
 
 std::optional<PointFit> FitPoint(const std::vector<PlacedEcho>& echoes, const Vector2d& near,
@@ -122,7 +129,7 @@ std::optional<PointFit> FitPoint(const std::vector<PlacedEcho>& echoes, const Ve
   if (!((place - near).norm() < kFarOff_m && variance <= config.most_rms * config.most_rms))
     return std::nullopt;
   if (SpreadOf(echoes, place) < Radians(config.spread_deg)) return std::nullopt;
-  if (!(PointOverLine(echoes, place, config.noise) > config.surplus)) return std::nullopt;
+  if (!(Surplus(echoes, place, squares, config.noise) > config.surplus)) return std::nullopt;
   return PointFit{place, std::max(1.0, variance) * PointStep(echoes, place, config.noise).Cofactors()};
 }
 
