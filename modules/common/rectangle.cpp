@@ -28,6 +28,10 @@ std::array<Eigen::Vector2d, 4> Rectangle::Corners() const {
           map_from_centre * Eigen::Vector2d(-x, -y), map_from_centre * Eigen::Vector2d(x, -y)};
 }
 
+Eigen::Vector2d Rectangle::NearestTo(const Eigen::Vector2d& in_map) const {
+  return map_from_centre * ToLocal(in_map).cwiseMax(-half_m).cwiseMin(half_m).eval();
+}
+
 double Distance(const Rectangle& rectangle, const Eigen::Vector2d& in_map) {
   return (rectangle.ToLocal(in_map).cwiseAbs() - rectangle.half_m).cwiseMax(0).norm();
 }

@@ -15,6 +15,8 @@ struct Rectangle {
   Eigen::Vector2d ToLocal(const Eigen::Vector2d& in_map) const;
   /// Counter-clockwise.
   std::array<Eigen::Vector2d, 4> Corners() const;
+  /// Its point that is nearest to another one, map frame: the other one itself when that lies inside.
+  Eigen::Vector2d NearestTo(const Eigen::Vector2d& in_map) const;
 };
 
 /// Exact distance from a point [m]; 0 inside.

@@ -106,8 +106,8 @@ void Exploration::Learn(const LearnedWalls& walls, const std::vector<NamedObstac
   evidence_.walls = WithoutPassages(WithoutEdges(walls), evidence_.trail, clearance_m_ + 2 * kRaster_m);
   evidence_.edges.clear();
   for (const LearnedPoint& point : walls.points)
-    if (const Rectangle edge{{point.x_m, point.y_m, 0}, {kPoint_m, kPoint_m}}; !ClosesTrail(edge))
-      evidence_.edges.push_back(edge);
+    if (!ClosesTrail({{point.x_m, point.y_m, 0}, {kPoint_m, kPoint_m}}))
+      evidence_.edges.push_back(point.at());
   evidence_.seen.clear();
   for (const NamedObstacle& thing : seen)
     if (!ClosesTrail(thing.shape)) evidence_.seen.push_back(thing.shape);
@@ -261,7 +261,17 @@ bool Exploration::IsOpen(const FrontierGoal& goal) {
   return false;
 }
 
-std::vector<NamedObstacle> Exploration::ObstaclesFor(const FrontierGoal& goal) {
+std::vector<NamedObstacle> Exploration::ThingsForWays() const {
+  std::vector<NamedObstacle> things;
+  for (std::size_t i = known_.size(); i < evidence_.things.size(); ++i)
+    things.push_back({"what stopped the robot", evidence_.things[i]});
+  for (const Rectangle& thing : evidence_.seen) things.push_back({"a thing that the head saw", thing});
+  for (const Vector2d& edge : evidence_.edges)
+    things.push_back({"a corner or an edge", {{edge.x(), edge.y(), 0}, {kPoint_m, kPoint_m}}});
+  return things;
+}
+
+std::vector<NamedObstacle> Exploration::UnknownFor(const FrontierGoal& goal) {
   const ExploredGrid& grid = this->grid();
   const double half_m = ExploredGrid::kStep_m / 2;
   const auto is_border = [&](int x, int y) {
@@ -280,10 +290,6 @@ std::vector<NamedObstacle> Exploration::ObstaclesFor(const FrontierGoal& goal) {
       obstacles.push_back({"what is unknown", {{middle.x(), middle.y(), 0}, {half_m * (end - x), half_m}}});
       x = end;
     }
-  for (std::size_t i = known_.size(); i < evidence_.things.size(); ++i)
-    obstacles.push_back({"what stopped the robot", evidence_.things[i]});
-  for (const Rectangle& thing : evidence_.seen) obstacles.push_back({"a thing that the head saw", thing});
-  for (const Rectangle& edge : evidence_.edges) obstacles.push_back({"a corner or an edge", edge});
   return obstacles;
 }
 

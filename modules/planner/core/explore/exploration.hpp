@@ -109,9 +109,10 @@ class Exploration {
   bool IsOpen(const FrontierGoal& goal);
   /// The frontiers that Choose() left, longest first.
   const std::vector<LeftFrontier>& left() const { return left_; }
-  /// Unknown cells beside free ones, what stopped the base, and what the head saw: what a way there keeps
-  /// off, the unknown around the goal excepted.
-  std::vector<NamedObstacle> ObstaclesFor(const FrontierGoal& goal);
+  /// What stopped the base, what the head saw, corners and edges: what a way keeps off beside walls.
+  std::vector<NamedObstacle> ThingsForWays() const;
+  /// Unknown cells beside free ones, but for those around the goal.
+  std::vector<NamedObstacle> UnknownFor(const FrontierGoal& goal);
 
   const ExploredGrid& grid();
   double driven_m() const { return driven_m_; }

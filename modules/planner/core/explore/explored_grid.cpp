@@ -36,7 +36,7 @@ void ExploredGridConfig::Describe(Archive& a) {
 }
 
 ExploredGrid::ExploredGrid(const ExploredGridConfig& config, const ExploredEvidence& evidence)
-    : presumed_(PresumedWalls(evidence.walls, evidence.trail, config.presumed)) {
+    : presumed_(PresumedWalls(evidence.walls, evidence.trail, config.presumed)), edges_(evidence.edges) {
   Eigen::AlignedBox2d box;
   for (const Vector2d& at : evidence.trail) box.extend(at);
   if (box.isEmpty()) return;
@@ -55,8 +55,6 @@ ExploredGrid::ExploredGrid(const ExploredGridConfig& config, const ExploredEvide
     last = *at;
   }
   for (const LearnedWall& wall : evidence.walls.walls) OpenToWall(config, wall, evidence.trail);
-  // In the way, but too thin to hide what is behind.
-  for (const Rectangle& edge : evidence.edges) CloseThing(edge);
   OpenWhereItWas(evidence.trail);
 }
 

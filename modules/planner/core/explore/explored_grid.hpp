@@ -26,9 +26,9 @@ struct ExploredGridConfig {
 struct ExploredEvidence {
   std::vector<Eigen::Vector2d> trail;  ///< where the base centre was, in steps of 10 to 30 cm
   LearnedWalls walls;                  ///< as told by now
-  std::vector<Rectangle> things;   ///< what else must not be touched: walls of a plan, what stopped the base
-  std::vector<Rectangle> seen{};   ///< things that the head saw
-  std::vector<Rectangle> edges{};  ///< corners and edges where the base has not been
+  std::vector<Rectangle> things;  ///< what else must not be touched: walls of a plan, what stopped the base
+  std::vector<Rectangle> seen{};  ///< things that the head saw
+  std::vector<Eigen::Vector2d> edges{};  ///< corners and edges where the base has not been
 };
 
 /// Cells of 10 cm, each unknown, free or closed (Moravec and Elfes 1985 for the idea of a grid; here it holds
@@ -57,6 +57,8 @@ class ExploredGrid {
   }
   Eigen::Vector2i CellOf(const Eigen::Vector2d& in_map) const;
   double free_m2() const;
+  /// Corners and edges: in the way, but they hide nothing, and their places are known better than cells.
+  const std::vector<Eigen::Vector2d>& edges() const { return edges_; }
   /// Where walls were taken to go on although nobody told so.
   const std::vector<LearnedWall>& presumed() const { return presumed_; }
 
@@ -75,6 +77,7 @@ class ExploredGrid {
   int nx_ = 0, ny_ = 0;
   std::vector<Cell> cells_;
   std::vector<LearnedWall> presumed_;
+  std::vector<Eigen::Vector2d> edges_;
 };
 
 }  // namespace priamos::planner

@@ -1,5 +1,6 @@
 #include "planner/core/explore/grid_ways.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -46,6 +47,17 @@ void GridWays::Spread(std::vector<float>& distance_m, const std::vector<std::siz
   }
 }
 
+void GridWays::KeepOff(const Eigen::Vector2d& edge) {
+  const int reach = static_cast<int>(kClearEnough_m / ExploredGrid::kStep_m);
+  const Eigen::Vector2i at = grid_->CellOf(edge);
+  for (int y = at.y() - reach; y <= at.y() + reach; ++y)
+    for (int x = at.x() - reach; x <= at.x() + reach; ++x) {
+      if (!grid_->Holds(x, y)) continue;
+      float& clearance_m = clearance_m_[grid_->IndexOf(x, y)];
+      clearance_m = std::min(clearance_m, static_cast<float>((grid_->PlaceOf(x, y) - edge).norm()));
+    }
+}
+
 GridWays::GridWays(const ExploredGrid& grid, const Eigen::Vector2d& from, double clearance_m)
     : grid_(&grid),
       least_m_(clearance_m),
@@ -56,6 +68,7 @@ GridWays::GridWays(const ExploredGrid& grid, const Eigen::Vector2d& from, double
     for (int x = 0; x < grid.nx(); ++x)
       if (grid.At(x, y) == Cell::kClosed) closed.push_back(grid.IndexOf(x, y));
   Spread(clearance_m_, closed, [](int, int, float) { return true; });
+  for (const Eigen::Vector2d& edge : grid.edges()) KeepOff(edge);
   const Eigen::Vector2i start = grid.CellOf(from);
   if (!grid.Holds(start.x(), start.y())) return;
   Spread(way_m_, {grid.IndexOf(start.x(), start.y())}, [&](int x, int y, float way_m) {

@@ -16,8 +16,8 @@ class GridWays {
 
   /// Length of the way [m]; infinite where none leads.
   double Way_m(const Eigen::Vector2i& cell) const { return way_m_[grid_->IndexOf(cell.x(), cell.y())]; }
-  /// Distance to the middle of the nearest closed cell, along the axes and diagonals of the grid; 3 m at
-  /// most.
+  /// Distance to the middle of the nearest closed cell, along the axes and diagonals of the grid, or to the
+  /// nearest edge; 3 m at most.
   double Clearance_m(const Eigen::Vector2i& cell) const {
     return clearance_m_[grid_->IndexOf(cell.x(), cell.y())];
   }
@@ -26,6 +26,7 @@ class GridWays {
   std::vector<double> WaysFrom(const Eigen::Vector2i& from, const std::vector<Eigen::Vector2i>& places) const;
 
  private:
+  void KeepOff(const Eigen::Vector2d& edge);
   template <class Passable>
   void Spread(std::vector<float>& distance_m, const std::vector<std::size_t>& sources,
               const Passable& passable) const;

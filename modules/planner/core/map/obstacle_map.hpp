@@ -33,6 +33,7 @@ class ObstacleMap {
   /// One obstacle after the other, for who wants to know what is near to many places.
   std::size_t size() const { return obstacles_.size(); }
   Eigen::AlignedBox2d BoundsOf(std::size_t obstacle) const;
+  const Rectangle& ShapeOf(std::size_t obstacle) const { return obstacles_[obstacle].shape; }
   double DistanceTo(std::size_t obstacle, const Eigen::Vector2d& in_map) const {
     return obstacles_[obstacle].DistanceTo(in_map);
   }

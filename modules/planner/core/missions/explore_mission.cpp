@@ -176,6 +176,10 @@ void ExploreMission::Learn(const Pose2& base) {
   planner_.Learn(exploration_.WallsForWays(), base);
 }
 
+void ExploreMission::KeepOff(const FrontierGoal& goal, const Pose2& base) {
+  planner_.Take(exploration_.ThingsForWays(), base, exploration_.UnknownFor(goal));
+}
+
 /// Returns whether there is one more on the map.
 bool ExploreMission::NoteThing(const MissionControl& control) {
   auto thing = ThingAhead(control, footprint_, config_.thing_m);
@@ -190,7 +194,7 @@ void ExploreMission::NoteAhead(const MissionControl& control) {
   if (!nearest || nearest->free_m > config_.meets_m || exploration_.Knows(BaseOf(control) * nearest->at))
     return;
   if (!NoteThing(control)) return;
-  planner_.Take(exploration_.ObstaclesFor(*goal_), BaseOf(control));
+  KeepOff(*goal_, BaseOf(control));
   considered_.reset();
 }
 
@@ -201,7 +205,7 @@ void ExploreMission::Reconsider(MissionControl& control) {
   considered_ = control.now();
   const Pose2 base = BaseOf(control);
   Learn(base);
-  if (std::exchange(saw_, false)) planner_.Take(exploration_.ObstaclesFor(*goal_), base);
+  if (std::exchange(saw_, false)) KeepOff(*goal_, base);
   auto left = PointsLeft(control.path().points, control.heard().drive->remaining_m);
   for (Pose2& point : left) point = graph_.map_from_robot() * point;
   const Pose2& told = control.heard().pose->map_from_base;
@@ -315,7 +319,7 @@ bool ExploreMission::GoBack(MissionControl& control, double length_m) {
 
 /// A way for the whole base to the place beyond the frontier, or at least to the frontier, that is worth it.
 Outcome<PlannedPath> ExploreMission::WayTo(const Pose2& base, const FrontierGoal& frontier) {
-  planner_.Take(exploration_.ObstaclesFor(frontier), base);
+  KeepOff(frontier, base);
   std::optional<double> too_far_m;
   const Pose2 at{frontier.target.x(), frontier.target.y(), base.yaw};
   for (const Pose2& to : {Pose2{frontier.goal.x(), frontier.goal.y(), base.yaw}, at}) {

@@ -45,6 +45,7 @@ class ExploreMission : public Mission {
   Pose2 BaseOf(const MissionControl& control) const;
   void Order(MissionControl& control, PlannedPath path);
   void Learn(const Pose2& base);
+  void KeepOff(const FrontierGoal& goal, const Pose2& base);
   void NoteStop(const MissionControl& control);
   bool NoteThing(const MissionControl& control);
   void NoteAhead(const MissionControl& control);

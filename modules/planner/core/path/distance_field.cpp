@@ -16,7 +16,8 @@ constexpr double kBeyondSurely_m = 1;
 }  // namespace
 
 DistanceField::DistanceField(const SweptFootprint& space, const Eigen::Vector2d& start,
-                             const Eigen::Vector2d& goal, double margin_m, double beyond_m)
+                             const Eigen::Vector2d& goal, double margin_m, double beyond_m,
+                             const std::vector<PassageLane>& lanes)
     : goal_(goal) {
   Eigen::AlignedBox2d box = space.obstacles().Bounds();
   box.extend(start).extend(goal);
@@ -29,7 +30,20 @@ DistanceField::DistanceField(const SweptFootprint& space, const Eigen::Vector2d&
   const Footprint& body = space.footprint();
   surely_m_ = std::hypot(body.length_m, body.width_m) / 2 + margin_m + std::numbers::sqrt2 * kStep_m;
   Measure(space.obstacles(), surely_m_ + kBeyondSurely_m);
-  Spread(std::min(body.length_m, body.width_m) / 2 + margin_m);
+  const double closed_m = std::min(body.length_m, body.width_m) / 2 + margin_m;
+  for (const PassageLane& lane : lanes) Open(lane, closed_m);
+  Spread(closed_m);
+}
+
+void DistanceField::Open(const PassageLane& lane, double closed_m) {
+  const Eigen::Vector2d from = lane.before.translation(), to = lane.behind.translation();
+  const int steps = static_cast<int>(std::ceil((to - from).norm() / (kStep_m / 2)));
+  for (int i = 0; i <= steps; ++i) {
+    const Eigen::Vector2i cell = CellOf(from + (to - from) * (double(i) / std::max(1, steps)));
+    if (!Holds(cell.x(), cell.y())) continue;
+    float& clearance_m = clearance_m_[IndexOf(cell.x(), cell.y())];
+    clearance_m = std::max(clearance_m, static_cast<float>(closed_m));
+  }
 }
 
 /// Around one obstacle after the other: a building has many, and each is near to few cells.

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "planner/core/path/passage_lanes.hpp"
 #include "planner/core/path/swept_footprint.hpp"
 
 namespace priamos::planner {
@@ -16,9 +17,10 @@ class DistanceField {
   static constexpr double kStep_m = 0.1;
 
   /// The cells reach `beyond_m` farther than the obstacles and both ends. A cell counts as closed when the
-  /// circle in the footprint would come nearer than `margin_m` to an obstacle there.
+  /// circle in the footprint would come nearer than `margin_m` to an obstacle there; but those on `lanes` are
+  /// open: what is just wide enough for the base need not have the middle of a cell in its own middle.
   DistanceField(const SweptFootprint& space, const Eigen::Vector2d& start, const Eigen::Vector2d& goal,
-                double margin_m, double beyond_m);
+                double margin_m, double beyond_m, const std::vector<PassageLane>& lanes = {});
 
   std::size_t cells() const { return clearance_m_.size(); }
   /// Cells are named by their steps from the goal.
@@ -32,6 +34,10 @@ class DistanceField {
     return {x_min_ + int(index % std::size_t(nx_)), y_min_ + int(index / std::size_t(nx_))};
   }
   Eigen::Vector2d PlaceOf(int x, int y) const { return goal_ + kStep_m * Eigen::Vector2d(x, y); }
+  /// Steps from the goal of the cell that holds a place.
+  Eigen::Vector2i CellOf(const Eigen::Vector2d& in_map) const {
+    return ((in_map - goal_) / kStep_m).array().round().cast<int>();
+  }
 
   /// Distance from the cell's middle to the nearest obstacle [m]; one more than a metre beyond what the base
   /// needs in any heading counts as that: farther away it makes no difference to a route.
@@ -43,6 +49,7 @@ class DistanceField {
 
  private:
   void Measure(const ObstacleMap& obstacles, double farthest_m);
+  void Open(const PassageLane& lane, double closed_m);
   void Spread(double closed_m);
 
   Eigen::Vector2d goal_;

@@ -19,6 +19,8 @@ constexpr double kLines = 0.9;
 /// A route that is longer than the straight line times this, and this more, may be a long way round; one that
 /// is shorter by this factor is then better.
 constexpr double kRoundabout = 1.5, kAround_m = 3;
+/// Through what is so much wider than the base needs, the lattice fits.
+constexpr double kNarrow_m = 0.7;
 /// Length of the last line to the goal, which has no leeway.
 constexpr double kExact_m = 0.6;
 /// Floor over which a route is looked for at most: a search keeps 40 kB of each square metre.
@@ -80,21 +82,27 @@ RoutePlanner::RoutePlanner(const RoutePlannerConfig& config, const Footprint& fo
       closed_(ClosedDoors(plan)),
       known_(footprint, MapOf(plan, true)),
       space_(known_),
-      slim_(Slim(footprint), MapOf(plan, false)) {}
+      slim_(Slim(footprint), MapOf(plan, false)) {
+  Rebuild();
+}
 
 void RoutePlanner::Add(std::string name, const Rectangle& shape) {
   added_.push_back({std::move(name), shape});
   Rebuild();
 }
 
-void RoutePlanner::Take(std::vector<NamedObstacle> obstacles, const Pose2& map_from_base) {
+void RoutePlanner::Take(std::vector<NamedObstacle> obstacles, const Pose2& map_from_base,
+                        std::vector<NamedObstacle> unknown) {
   added_ = std::move(obstacles);
+  unknown_ = std::move(unknown);
   EraseUnder(map_from_base, added_);
+  EraseUnder(map_from_base, unknown_);
   Rebuild();
 }
 
 void RoutePlanner::Forget() {
   added_.clear();
+  unknown_.clear();
   Rebuild();
 }
 
@@ -114,6 +122,9 @@ void RoutePlanner::Rebuild() {
   space_ = known_;
   for (const auto* obstacles : {&added_, &learned_})
     for (const NamedObstacle& obstacle : *obstacles) space_.Add(obstacle.name, obstacle.shape);
+  const double needed_m = space_.footprint().width_m + 2 * config_.least_margin_m;
+  passages_ = NarrowPassagesOf(space_.obstacles(), needed_m, needed_m + kNarrow_m);
+  for (const NamedObstacle& obstacle : unknown_) space_.Add(obstacle.name, obstacle.shape);
 }
 
 std::string RoutePlanner::InTheWay(const Pose2& map_from_start, const std::vector<Pose2>& points) const {
@@ -161,7 +172,8 @@ std::optional<PlannedPath> RoutePlanner::FindPath(const Pose2& map_from_start, c
                                           .leaving_m = LeavingMargin(margin_m, start_gap_m),
                                           .turn_m = config_.turn_m,
                                           .sideways = config_.sideways,
-                                          .most_poses = config_.most_poses});
+                                          .most_poses = config_.most_poses,
+                                          .passages = passages_});
   if (!route) return std::nullopt;
   // Lines that had to keep as much as the lattice would have a corner wherever that is all there is.
   const double lines_m = std::max(std::min(margin_m, config_.least_margin_m), kLines * margin_m);

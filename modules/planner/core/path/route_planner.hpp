@@ -8,6 +8,7 @@
 #include "common/ground_plan.hpp"
 #include "common/outcome.hpp"
 #include "planner/core/map/learned_obstacles.hpp"
+#include "planner/core/path/narrow_passages.hpp"
 #include "planner/core/path/planned_path.hpp"
 #include "planner/core/path/swept_footprint.hpp"
 
@@ -34,8 +35,9 @@ class RoutePlanner {
   /// Takes something into account that is not on the plan, until Forget().
   void Add(std::string name, const Rectangle& shape);
   /// Takes these into account in place of all that was added before; but none where the base stands, which
-  /// is known by one side only.
-  void Take(std::vector<NamedObstacle> obstacles, const Pose2& map_from_base);
+  /// is known by one side only. No passage is looked for beside what is `unknown`.
+  void Take(std::vector<NamedObstacle> obstacles, const Pose2& map_from_base,
+            std::vector<NamedObstacle> unknown = {});
   void Forget();
   /// Takes the walls and things into account that are not on the plan, in place of those before; but none
   /// where the base stands: there is nothing.
@@ -71,10 +73,11 @@ class RoutePlanner {
   RoutePlannerConfig config_;
   std::vector<DoorPlan> doors_;   ///< of the plan
   std::vector<DoorPlan> closed_;  ///< those whose leaf is not known
-  std::vector<NamedObstacle> added_, learned_;
-  SweptFootprint known_;  ///< the plan
-  SweptFootprint space_;  ///< and what was added
-  SweptFootprint slim_;   ///< a body that fits through every door, all of them open
+  std::vector<NamedObstacle> added_, unknown_, learned_;
+  std::vector<NarrowPassage> passages_;  ///< of all that is known
+  SweptFootprint known_;                 ///< the plan
+  SweptFootprint space_;                 ///< and what was added
+  SweptFootprint slim_;                  ///< a body that fits through every door, all of them open
 };
 
 }  // namespace priamos::planner

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "planner/core/path/distance_field.hpp"
+#include "planner/core/path/passage_lanes.hpp"
 
 namespace priamos::planner {
 namespace {
@@ -23,6 +24,8 @@ constexpr double kNear_m = 0.4, kNearWall = 0.5;  ///< so near to an obstacle dr
 constexpr double kGreed = 1.4;
 /// From the start any lattice pose so near can be the first one.
 constexpr double kFirst_m = 0.4;
+/// From the start the end of a lane can be the first pose that is so near, and from its end any lattice pose.
+constexpr double kFirstLane_m = 1.5, kBesideLane_m = 0.15;
 
 constexpr std::array<std::pair<int, int>, 8> kMoves{
     {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
@@ -37,12 +40,14 @@ class Search {
   Search(const SweptFootprint& space, const RouteQuery& query)
       : space_(space),
         query_(query),
+        lanes_(LanesThrough(query.passages, space, query.margin_m)),
         field_(space, query.start.translation(), query.goal.translation(), query.margin_m,
-               query.beyond_plan_m),
-        cost_(field_.cells() * kHeadings, std::numeric_limits<double>::infinity()),
-        expanded_(field_.cells() * kHeadings, false),
-        from_(field_.cells() * kHeadings, kNone),
-        distance_m_(field_.cells() * kHeadings, -1) {}
+               query.beyond_plan_m, lanes_),
+        lattice_(field_.cells() * kHeadings),
+        cost_(lattice_ + 2 * lanes_.size(), std::numeric_limits<double>::infinity()),
+        expanded_(cost_.size(), false),
+        from_(cost_.size(), kNone),
+        distance_m_(lattice_, -1) {}
 
   std::optional<std::vector<Pose2>> Run() {
     BeginAtStart();
@@ -53,9 +58,14 @@ class Search {
       if (expanded_[index]) continue;
       if (query_.most_poses > 0 && ++n_poses > query_.most_poses) return std::nullopt;
       expanded_[index] = true;
-      const Node node = NodeAt(index);
-      if (IsGoal(node)) return RouteTo(index);
-      Expand(node, index);
+      if (index >= lattice_) {
+        ExpandLane(index);
+      } else if (const Node node = NodeAt(index); IsGoal(node)) {
+        return RouteTo(index);
+      } else {
+        Expand(node, index);
+        EnterLanes(index, PoseOf(node));
+      }
     }
     return std::nullopt;
   }
@@ -77,6 +87,11 @@ class Search {
     return {at.x(), at.y(),
             WrapAngle((query_.turn ? query_.goal.yaw : query_.start.yaw) + n.heading * kTurn_rad)};
   }
+  Pose2 PoseAt(std::size_t index) const {
+    if (index < lattice_) return PoseOf(NodeAt(index));
+    const PassageLane& lane = lanes_[(index - lattice_) / 2];
+    return (index - lattice_) % 2 == 0 ? lane.before : lane.behind;
+  }
   bool IsGoal(const Node& n) const { return n.x == 0 && n.y == 0 && (n.heading == 0 || !query_.turn); }
 
   void BeginAtStart() {
@@ -86,23 +101,39 @@ class Search {
     const int x0 = static_cast<int>(std::lround(offset.x())), y0 = static_cast<int>(std::lround(offset.y()));
     for (int x = x0 - reach; x <= x0 + reach; ++x)
       for (int y = y0 - reach; y <= y0 + reach; ++y)
-        for (int heading = 0; heading < kHeadings; ++heading) TryFirst({x, y, heading});
+        for (int heading = 0; heading < kHeadings; ++heading)
+          if (field_.Holds(x, y)) TryFirst(IndexOf({x, y, heading}), kFirst_m);
+    for (std::size_t end = lattice_; end < cost_.size(); ++end) TryFirst(end, kFirstLane_m);
   }
 
-  void TryFirst(const Node& node) {
-    if (!field_.Holds(node.x, node.y)) return;
-    const Pose2 pose = PoseOf(node);
-    const double distance_m = (pose.translation() - query_.start.translation()).norm();
-    const double turn_rad = std::abs(WrapAngle(pose.yaw - query_.start.yaw));
-    if (distance_m > kFirst_m || turn_rad > 1.01 * kTurn_rad) return;
-    if (!space_.IsFree(query_.start, pose, std::min(query_.leaving_m, query_.margin_m))) return;
-    Reach(node, distance_m + turn_rad / kTurn_rad * query_.turn_m, kStart);
+  void TryFirst(std::size_t index, double most_m) {
+    TryLine({query_.start, kStart, 0}, index, most_m, std::min(query_.leaving_m, query_.margin_m));
   }
 
-  void Reach(const Node& node, double cost, std::size_t from) {
-    const std::size_t index = IndexOf(node);
+  struct From {
+    Pose2 pose;
+    std::size_t index;
+    double cost;
+  };
+  /// A straight line to a pose that is no farther, and about as turned.
+  void TryLine(const From& from, std::size_t to, double most_m, double margin_m) {
+    const Pose2 there = PoseAt(to);
+    const double distance_m = (there.translation() - from.pose.translation()).norm();
+    const double turn_rad = std::abs(WrapAngle(there.yaw - from.pose.yaw));
+    if (distance_m > most_m || turn_rad > 1.01 * kTurn_rad) return;
+    const double cost = from.cost + distance_m + turn_rad / kTurn_rad * query_.turn_m;
+    if (cost < cost_[to] && space_.IsFree(from.pose, there, margin_m)) Reach(to, cost, from.index);
+  }
+
+  double ToGoal(std::size_t index) const {
+    const Eigen::Vector2i cell = field_.CellOf(PoseAt(index).translation());
+    return field_.Holds(cell.x(), cell.y()) ? field_.ToGoal(cell.x(), cell.y())
+                                            : std::numeric_limits<double>::infinity();
+  }
+
+  void Reach(std::size_t index, double cost, std::size_t from) {
     if (cost >= cost_[index]) return;
-    const double to_goal = field_.ToGoal(node.x, node.y);
+    const double to_goal = ToGoal(index);
     if (!std::isfinite(to_goal)) return;
     cost_[index] = cost;
     from_[index] = from;
@@ -115,7 +146,7 @@ class Search {
     for (const int turn : {-1, 1}) {
       const Node next{node.x, node.y, (node.heading + turn + kHeadings) % kHeadings};
       if (IsBetter(next, cost_[index] + query_.turn_m) && TurnIsFree(index, here, next))
-        Reach(next, cost_[index] + query_.turn_m, index);
+        Reach(IndexOf(next), cost_[index] + query_.turn_m, index);
     }
     for (const auto& [dx, dy] : kMoves) {
       const Node next{node.x + dx, node.y + dy, node.heading};
@@ -124,8 +155,29 @@ class Search {
                    length_m = std::hypot(dx, dy) * DistanceField::kStep_m;
       const double cost =
           cost_[index] + length_m * (1 + query_.sideways * (1 - ahead) / 2) * NearWall(next.x, next.y);
-      if (IsBetter(next, cost) && MoveIsFree(index, here, next, length_m)) Reach(next, cost, index);
+      if (IsBetter(next, cost) && MoveIsFree(index, here, next, length_m)) Reach(IndexOf(next), cost, index);
     }
+  }
+
+  void EnterLanes(std::size_t from, const Pose2& here) {
+    for (std::size_t end = lattice_; end < cost_.size(); ++end)
+      if ((PoseAt(end).translation() - here.translation()).cwiseAbs().maxCoeff() < kBesideLane_m)
+        TryLine({here, from, cost_[from]}, end, kBesideLane_m, query_.margin_m);
+  }
+
+  /// To its other end, and to the lattice beside it.
+  void ExpandLane(std::size_t index) {
+    const Pose2 here = PoseAt(index);
+    const bool ahead = (index - lattice_) % 2 == 0;
+    const std::size_t other = ahead ? index + 1 : index - 1;
+    const double length_m = (PoseAt(other).translation() - here.translation()).norm();
+    Reach(other, cost_[index] + length_m * (1 + kNearWall) * (ahead ? 1 : 1 + query_.sideways), index);
+    const Eigen::Vector2i cell = field_.CellOf(here.translation());
+    for (int x = cell.x() - 1; x <= cell.x() + 1; ++x)
+      for (int y = cell.y() - 1; y <= cell.y() + 1; ++y)
+        for (int heading = 0; heading < kHeadings; ++heading)
+          if (field_.Holds(x, y))
+            TryLine({here, index, cost_[index]}, IndexOf({x, y, heading}), kBesideLane_m, query_.margin_m);
   }
 
   bool IsBetter(const Node& next, double cost) const {
@@ -165,7 +217,7 @@ class Search {
 
   std::vector<Pose2> RouteTo(std::size_t index) const {
     std::vector<Pose2> route;
-    for (std::size_t i = index; i != kStart; i = from_[i]) route.push_back(PoseOf(NodeAt(i)));
+    for (std::size_t i = index; i != kStart; i = from_[i]) route.push_back(PoseAt(i));
     route.push_back(query_.start);
     std::reverse(route.begin(), route.end());
     return route;
@@ -173,7 +225,9 @@ class Search {
 
   const SweptFootprint& space_;
   const RouteQuery& query_;
+  std::vector<PassageLane> lanes_;
   DistanceField field_;
+  std::size_t lattice_;  ///< poses of the lattice; then come both ends of each lane
   std::vector<double> cost_;
   std::vector<bool> expanded_;
   std::vector<std::size_t> from_;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/geometry.hpp"
+#include "planner/core/path/narrow_passages.hpp"
 #include "planner/core/path/swept_footprint.hpp"
 
 namespace priamos::planner {
@@ -18,12 +19,14 @@ struct RouteQuery {
   double turn_m = 0.15;      ///< what turning by a heading of the lattice costs, in metres driven forward
   double sideways = 0.15;    ///< driving backwards costs so much more, sideways half of it
   int most_poses = 0;  ///< after so many poses the search ends without a route; 0: when there are no more
+  std::vector<NarrowPassage> passages{};  ///< through which it may lead although the lattice does not fit
 };
 
 /// A quick route of the true footprint on a lattice of poses: places 10 cm apart, 16 headings, counted
-/// from the goal so that it ends there exactly. Weighted A* with the distance around the obstacles as
-/// heuristic; it prefers to drive forward and to keep off walls. Returns start, lattice poses and goal;
-/// nullopt: there is no such route. Every pose is looked at once at most, so it always ends.
+/// from the goal so that it ends there exactly, and on straight lines through the middles of narrow passages,
+/// for which neither places nor headings of the lattice need fit. Weighted A* with the distance around the
+/// obstacles as heuristic; it prefers to drive forward and to keep off walls. Returns start, lattice poses
+/// and goal; nullopt: there is no such route. Every pose is looked at once at most, so it always ends.
 std::optional<std::vector<Pose2>> SearchRoute(const SweptFootprint& space, const RouteQuery& query);
 
 }  // namespace priamos::planner

@@ -189,7 +189,7 @@ TEST(ExplorationTest, WhatTheHeadSawIsKeptOffButDoesNotCloseWhereTheBaseWas) {
   EXPECT_FALSE(dut.Knows({1, 0.3}));
   EXPECT_TRUE(dut.Knows({3.9, 0}));
   EXPECT_EQ(dut.grid().At(Eigen::Vector2d(3.9, 0)), ExploredGrid::Cell::kClosed);
-  const auto obstacles = dut.ObstaclesFor({.target = {0, 3}, .goal = {0, 3}});
+  const auto obstacles = dut.ThingsForWays();
   ASSERT_FALSE(obstacles.empty());
   EXPECT_EQ(obstacles.back().name, "a thing that the head saw");
   EXPECT_EQ(obstacles.back().shape.map_from_centre.x, 3.9);
@@ -219,7 +219,7 @@ TEST(ExplorationTest, TheUnknownIsInTheWayExceptWhereItIsToBeSeen) {
   const auto goal = dut.Choose({4, 0, 0});
   ASSERT_TRUE(goal);
   bool behind = false;
-  for (const NamedObstacle& obstacle : dut.ObstaclesFor(*goal)) {
+  for (const NamedObstacle& obstacle : dut.UnknownFor(*goal)) {
     EXPECT_GT(Distance(obstacle.shape, goal->goal), 1.1);
     behind = behind || Distance(obstacle.shape, Eigen::Vector2d(-1.3, 0)) < 0.2;
   }

@@ -45,6 +45,17 @@ TEST(GridWaysTest, ClearanceIsTheDistanceToWhatIsClosed) {
   EXPECT_EQ(GridWays(ExploredGrid({}, Floor()), {0, 0}, 0.44).Clearance_m(grid.CellOf({3, 0})), 3);
 }
 
+TEST(GridWaysTest, EdgesAreKeptOffToTheCentimetre) {
+  ExploredEvidence evidence = Floor();
+  evidence.edges = {{3.03, 0.02}, {3.03, 1.07}};  // 1.05 m apart
+  const ExploredGrid grid({}, evidence);
+  const Eigen::Vector2i between = grid.CellOf({3.03, 0.54}), beside = grid.CellOf({3.03, 0.2});
+  const GridWays dut(grid, {0, 0}, 0.44);
+  EXPECT_GE(dut.Clearance_m(between), 0.44);
+  EXPECT_NEAR(dut.Clearance_m(beside), 0.2, 0.08);
+  EXPECT_TRUE(std::isfinite(dut.Way_m(grid.CellOf({5, 0.5}))));
+}
+
 TEST(GridWaysTest, ABaseThatStandsTooNearMayLeave) {
   ExploredEvidence evidence = Floor();
   evidence.things = {{{0, -0.6, 0}, {0.3, 0.2}}};

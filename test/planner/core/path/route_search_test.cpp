@@ -1,6 +1,7 @@
 #include "planner/core/path/route_search.hpp"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include "test/planner/core/plans.hpp"
 
@@ -61,6 +62,36 @@ TEST(SearchRouteTest, AGapThatFitsLengthwiseOnlyIsPassedLengthwise) {
       EXPECT_GT(std::abs(std::cos(pose.yaw)), 0.9) << "beside the screens";
     }
   }
+}
+
+/// A base anywhere before an opening, as it likes to be turned: places and headings of the lattice, which are
+/// counted from start and goal, need not fit.
+RC_GTEST_PROP(SearchRouteTest, AnOpeningThatIsWideEnoughIsPassed, ()) {
+  const double width_m = *rc::gen::inRange(99, 125) / 100.0,
+               turned = *rc::gen::inRange(-180, 180) * kPi / 180, x = *rc::gen::inRange(-25, -11) / 10.0,
+               y = *rc::gen::inRange(-150, 150) / 100.0, yaw = *rc::gen::inRange(-180, 180) * kPi / 180;
+  ObstacleMap map{GroundPlan{}};
+  const Pose2 map_from_wall{3, 2, turned};
+  for (const double side : {1.0, -1.0})
+    map.Add("wall", {map_from_wall * Pose2{0, side * (width_m / 2 + 3), 0}, {0.05, 3}});
+  const SweptFootprint space(Footprint{}, map);
+  RouteQuery query{.start = map_from_wall * Pose2{x, y, yaw}, .goal = map_from_wall * Pose2{1.4, y / 3, 0}};
+  query.turn = false;
+  query.passages = NarrowPassagesOf(map, 0.98, 1.7);
+  query.margin_m = query.leaving_m = 0.1;
+  const auto dut = SearchRoute(space, query);
+  RC_ASSERT(dut.has_value());
+  for (std::size_t i = 1; i < dut->size(); ++i)
+    RC_ASSERT(space.Along((*dut)[i - 1], (*dut)[i]).distance_m > 0.1 - 1e-3);
+}
+
+TEST(SearchRouteTest, WhoStandsInANarrowPassageDrivesOn) {
+  ObstacleMap map{GroundPlan{}};
+  for (const double side : {1.0, -1.0}) map.Add("wall", {{0, side * 3.52, 0}, {0.05, 3}});
+  const SweptFootprint space(Footprint{}, map);
+  RouteQuery query{.start = {0.1, 0.03, 0.05}, .goal = {3, 1, 0.4}, .leaving_m = 0.05};
+  query.passages = NarrowPassagesOf(map, 0.98, 1.7);
+  EXPECT_TRUE(SearchRoute(space, query));
 }
 
 TEST(SearchRouteTest, WhereNoWayLeadsThereIsNone) {

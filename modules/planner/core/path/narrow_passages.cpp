@@ -1,0 +1,98 @@
+#include "planner/core/path/narrow_passages.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace priamos::planner {
+namespace {
+
+using Eigen::Vector2d;
+
+/// Walls so parallel make a corridor, and not an opening.
+constexpr double kParallel_rad = Radians(3);
+/// Passages whose middles are so near to each other, in about one direction, are one.
+constexpr double kSamePlace_m = 0.2, kSameWay_rad = Radians(15);
+/// Obstacles that meet at an edge are equally near to the middle of the passage beside it.
+constexpr double kAsNear_m = 0.01;
+
+using Ends = std::pair<Vector2d, Vector2d>;
+
+/// Between disjoint rectangles a corner of one of them is always among the nearest points.
+Ends NearestPoints(const Rectangle& a, const Rectangle& b) {
+  Ends nearest;
+  double distance_m = std::numeric_limits<double>::infinity();
+  const auto take = [&](const Vector2d& on_a, const Vector2d& on_b) {
+    if ((on_b - on_a).norm() >= distance_m) return;
+    distance_m = (on_b - on_a).norm();
+    nearest = {on_a, on_b};
+  };
+  for (const Vector2d& corner : a.Corners()) take(corner, b.NearestTo(corner));
+  for (const Vector2d& corner : b.Corners()) take(a.NearestTo(corner), corner);
+  return nearest;
+}
+
+/// Along the x axis of a frame.
+struct Span {
+  double low_m = std::numeric_limits<double>::infinity(), high_m = -low_m;
+};
+
+Span SpanOf(const Rectangle& shape, const Pose2& map_from_frame) {
+  Span span;
+  for (const Vector2d& corner : shape.Corners()) {
+    const double x = (map_from_frame.Inverse() * corner).x();
+    span = {std::min(span.low_m, x), std::max(span.high_m, x)};
+  }
+  return span;
+}
+
+bool AreParallel(const Rectangle& a, const Rectangle& b) {
+  const double quarters = (a.map_from_centre.yaw - b.map_from_centre.yaw) / (kPi / 2);
+  return std::abs(quarters - std::round(quarters)) * kPi / 2 < kParallel_rad;
+}
+
+NarrowPassage PassageBetween(const Rectangle& a, const Rectangle& b) {
+  const auto [on_a, on_b] = NearestPoints(a, b);
+  const Vector2d across = on_b - on_a, middle = (on_a + on_b) / 2;
+  NarrowPassage passage{{middle.x(), middle.y(), std::atan2(-across.x(), across.y())}, across.norm()};
+  if (!AreParallel(a, b)) return passage;
+  const Span of_a = SpanOf(a, passage.map_from_passage), of_b = SpanOf(b, passage.map_from_passage);
+  const double low_m = std::max(of_a.low_m, of_b.low_m), high_m = std::min(of_a.high_m, of_b.high_m);
+  if (high_m <= low_m) return passage;
+  passage.map_from_passage = passage.map_from_passage * Pose2{(low_m + high_m) / 2, 0, 0};
+  passage.half_long_m = (high_m - low_m) / 2;
+  return passage;
+}
+
+bool AreOne(const NarrowPassage& a, const NarrowPassage& b) {
+  const Pose2 there = a.map_from_passage.Inverse() * b.map_from_passage;
+  const double turned = std::abs(WrapAngle(there.yaw));
+  return there.translation().norm() < kSamePlace_m && std::min(turned, kPi - turned) < kSameWay_rad;
+}
+
+}  // namespace
+
+std::vector<NarrowPassage> NarrowPassagesOf(const ObstacleMap& obstacles, double least_m, double most_m) {
+  std::vector<NarrowPassage> passages;
+  for (std::size_t i = 0; i < obstacles.size(); ++i)
+    for (std::size_t k = i + 1; k < obstacles.size(); ++k) {
+      if (obstacles.BoundsOf(i).exteriorDistance(obstacles.BoundsOf(k)) > most_m) continue;
+      const NarrowPassage passage = PassageBetween(obstacles.ShapeOf(i), obstacles.ShapeOf(k));
+      if (passage.width_m < least_m || passage.width_m > most_m) continue;
+      const Rectangle middle{passage.map_from_passage, {0, 0}};
+      if (obstacles.NearestTo(middle).distance_m >= passage.width_m / 2 - kAsNear_m)
+        passages.push_back(passage);
+    }
+  std::stable_sort(passages.begin(), passages.end(),
+                   [](const NarrowPassage& a, const NarrowPassage& b) { return a.width_m < b.width_m; });
+  std::vector<NarrowPassage> narrowest;
+  for (const NarrowPassage& passage : passages) {
+    const auto is_it = [&](const NarrowPassage& other) { return AreOne(passage, other); };
+    if (std::none_of(narrowest.begin(), narrowest.end(), is_it)) narrowest.push_back(passage);
+  }
+  return narrowest;
+}
+
+}  // namespace priamos::planner
