@@ -145,7 +145,8 @@ DriveReport FromMessage(const drive_status_t& message) {
           message.limit == drive_status_t::LIMIT_TOUCHED && !bumped,
           message.remaining_m,
           NearestOf(message),
-          message.driver == lease_request_t::TELEOP || message.driver == lease_request_t::CONSOLE};
+          message.driver == lease_request_t::TELEOP || message.driver == lease_request_t::CONSOLE,
+          message.limit == drive_status_t::LIMIT_SONAR};
 }
 
 PassedOpening FromMessage(const opening_t& message) {

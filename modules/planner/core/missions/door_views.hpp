@@ -24,10 +24,6 @@ struct SpentView {
   Pose2 door_from_base;
 };
 
-/// A line on a way to a view may be left by so much at least: a place is not known as well as a line that may
-/// not be left, and where the base came by a hand's breadth from something it has to dodge on its way back.
-inline constexpr double kLeastLeeway_m = 0.1;
-
 /// What nobody sees through, map frame.
 struct ScreenLine {
   Eigen::Vector2d from{0, 0}, to{0, 0};

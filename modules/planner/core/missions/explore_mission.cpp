@@ -27,8 +27,6 @@ constexpr double kMore_m2 = 1.0;
 constexpr std::size_t kNamed = 1;
 /// Of walls that were known before the order; robots have others.
 constexpr int kNoStore = 0;
-/// How far each line may be left at least.
-constexpr double kAnyway_m = 0.1;
 /// A map that has moved by so much under a robot on its way is a reason to plan it anew.
 constexpr double kMoved_m = 0.15;
 
@@ -155,12 +153,8 @@ Pose2 ExploreMission::BaseOf(const MissionControl& control) const {
   return graph_.map_from_robot() * control.heard().pose->map_from_base;
 }
 
-/// A path in the map, for a robot that drives in its own frame. None of its lines is planned to the
-/// centimetre: the map is not as good, and the robot is to keep its distance from what it hears.
+/// A path in the map, for a robot that drives in its own frame.
 void ExploreMission::Order(MissionControl& control, PlannedPath path) {
-  path.leeway.resize(path.points.size());
-  for (Leeway& leeway : path.leeway)
-    leeway = {std::max(leeway.left_m, kAnyway_m), std::max(leeway.right_m, kAnyway_m)};
   ordered_by_ = graph_.map_from_robot();
   const Pose2 robot_from_map = ordered_by_.Inverse();
   for (Pose2& point : path.points) point = robot_from_map * point;
@@ -307,6 +301,7 @@ bool ExploreMission::GoBack(MissionControl& control, double length_m) {
   PlannedPath way{.points = exploration_.WayBack(length_m)};
   if (auto on = exploration_.WayOn(length_m); leads(on) < leads(way.points)) way.points = std::move(on);
   if (way.points.empty()) return false;
+  way.leeway.assign(way.points.size(), {kLeastLeeway_m, kLeastLeeway_m});
   goal_.reset();
   backing_ = true;
   progress_.ResetIdle();

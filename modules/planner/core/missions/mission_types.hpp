@@ -61,6 +61,7 @@ struct DriveReport {
   double remaining_m = 0;              ///< distance left on the path
   std::optional<ThingNear> nearest{};  ///< if there is an echo in the direction of driving
   bool by_hand = false;                ///< an operator has the lease: no path is driven
+  bool by_echo = false;                ///< it is an echo that limits the speed
 };
 
 /// A narrow opening that the robot drove through, by its sonars: evidence that does not rest on its pose

@@ -70,8 +70,8 @@ double StandWatch::Stands_s(const MissionControl& control) {
   const DriveReport& drive = *control.heard().drive;
   const double step_s = stepped_ ? std::min(Seconds(control.now() - *stepped_), kLongestStep_s) : 0;
   stepped_ = control.now();
-  if (drive.limit.empty() != (counts_ == Counts::kFree) ||
-      std::abs(drive.remaining_m - stood_at_m_) > kProgress_m) {
+  const bool free = drive.limit.empty() || drive.by_echo;
+  if (free != (counts_ == Counts::kFree) || std::abs(drive.remaining_m - stood_at_m_) > kProgress_m) {
     stood_at_m_ = drive.remaining_m;
     stood_s_ = 0;
   } else if (IsFresh(*control.heard().pose, control.now())) {

@@ -28,7 +28,8 @@ Rectangle ThingMet(const Pose2& base, const Eigen::Vector2d& ahead, const std::o
 /// for ever. Time without news of the robot does not count.
 class StandWatch {
  public:
-  /// Which times count: those in which something holds the robot, or those in which nothing does.
+  /// Which times count: those in which something holds the robot, or those in which nothing does, or only
+  /// what it hears: before a thing it need not say that it is blocked.
   enum class Counts { kHeld, kFree };
   explicit StandWatch(Counts counts = Counts::kHeld) : counts_(counts) {}
 

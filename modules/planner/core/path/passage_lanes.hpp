@@ -8,7 +8,8 @@
 namespace priamos::planner {
 
 /// The straight line on which a base drives through a narrow passage, ahead, from where its whole body is
-/// before it to where its whole body is behind it. Both poses have the heading of the line.
+/// before it to where its whole body is behind it, and a bit farther where there is room. Both poses have the
+/// heading of the line.
 struct PassageLane {
   Pose2 before, behind;
 };

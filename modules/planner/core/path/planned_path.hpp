@@ -18,6 +18,11 @@ struct Goal {
 /// The most points that the robot takes in one PATH.
 inline constexpr std::size_t kMostPathPoints = 16;
 
+/// A line may be left by so much at least where the place of the base, or the map, is not known as well as a
+/// line that may not be left; and where the base came by a hand's breadth from something it has to dodge on
+/// its way back.
+inline constexpr double kLeastLeeway_m = 0.1;
+
 /// Length of the straight lines from `start` over all `points` [m].
 inline double LengthOf(const Pose2& start, const std::vector<Pose2>& points) {
   double length_m = 0;

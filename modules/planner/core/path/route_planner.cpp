@@ -7,8 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "planner/core/path/route_search.hpp"
-
 namespace priamos::planner {
 namespace {
 
@@ -68,6 +66,8 @@ double LeavingMargin(double margin_m, double start_gap_m) {
 void RoutePlannerConfig::Describe(Archive& a) {
   a.Number("easy_margin_m", easy_margin_m, {"m", 0, 2, "preferred clearance of a route to everything"});
   a.Number("least_margin_m", least_margin_m, {"m", 0, 1, "clearance where there is no such route"});
+  a.Number("least_leeway_m", least_leeway_m,
+           {"m", 0, 1, "how far any line may be left, but in a narrow passage"});
   a.Number("turn_m", turn_m, {"m", 0, 10, "what turning by 22.5 degrees costs"});
   a.Number("sideways", sideways, {"-", 0, 10, "driving backwards costs so much more, sideways half of it"});
   a.Integer("most_poses", most_poses,
@@ -209,37 +209,44 @@ std::optional<Refusal> RoutePlanner::CheckEnds(const Pose2& start, const Goal& g
   return std::nullopt;
 }
 
-/// From corner to corner, each the farthest that a straight line reaches.
-std::vector<Pose2> RoutePlanner::Straightened(const std::vector<Pose2>& route, double margin_m) const {
-  std::vector<Pose2> corners;
+/// From corner to corner, each the farthest that a straight line reaches, with all lanes as they are.
+std::vector<RoutePose> RoutePlanner::Straightened(const std::vector<RoutePose>& route,
+                                                  double margin_m) const {
+  std::vector<RoutePose> corners;
   for (std::size_t at = 0; at + 1 < route.size();) {
-    std::size_t next = at + 1;
-    for (std::size_t to = route.size() - 1; to > next; --to) {
-      if (space_.IsFree(route[at], route[to], margin_m)) next = to;
-    }
+    std::size_t last = at + 1, next = at + 1;
+    while (last + 1 < route.size() && !route[at + 1].lane && !route[last + 1].lane) ++last;
+    for (std::size_t to = last; to > next; --to)
+      if (space_.IsFree(route[at].map_from_base, route[to].map_from_base, margin_m)) next = to;
     corners.push_back(route[next]);
     at = next;
   }
   return corners;
 }
 
-PlannedPath RoutePlanner::PathAlong(const Pose2& start, std::vector<Pose2> corners) const {
+PlannedPath RoutePlanner::PathAlong(const Pose2& start, std::vector<RoutePose> corners) const {
+  // Around things beside it the base would end beside the goal: the last bit is driven as it is planned.
+  const Pose2 before = corners.size() > 1 ? corners[corners.size() - 2].map_from_base : start,
+              goal = corners.back().map_from_base;
+  const double last_m = (goal.translation() - before.translation()).norm();
+  if (last_m > kExact_m && !corners.back().lane)
+    corners.insert(corners.end() - 1, {Between(before, goal, 1 - kExact_m / last_m)});
   PlannedPath path;
   path.min_gap_m = space_.At(start).distance_m;
-  // Around things beside it the base would end beside the goal: the last bit is driven as it is planned.
-  const Pose2 before = corners.size() > 1 ? corners[corners.size() - 2] : start;
-  const double last_m = (corners.back().translation() - before.translation()).norm();
-  if (last_m > kExact_m)
-    corners.insert(corners.end() - 1, Between(before, corners.back(), 1 - kExact_m / last_m));
   Pose2 from = start;
-  for (const Pose2& to : corners) {
+  for (const RoutePose& corner : corners) {
+    const Pose2& to = corner.map_from_base;
     path.min_gap_m = std::min(path.min_gap_m, space_.Along(from, to).distance_m);
-    path.leeway.push_back(space_.LeewayOf(from, to, config_.least_margin_m));
+    path.leeway.push_back(corner.lane ? kNarrowLine : LeewayOf(from, to, &corner == &corners.back()));
+    path.points.push_back(to);
     from = to;
   }
-  path.leeway.back() = {};
-  path.points = std::move(corners);
   return path;
+}
+
+Leeway RoutePlanner::LeewayOf(const Pose2& from, const Pose2& to, bool exact) const {
+  const Leeway free = exact ? Leeway{} : space_.LeewayOf(from, to, config_.least_margin_m);
+  return {std::max(free.left_m, config_.least_leeway_m), std::max(free.right_m, config_.least_leeway_m)};
 }
 
 /// Looks for a door on the way that a slim body would take.
@@ -248,7 +255,7 @@ Refusal RoutePlanner::NoWay(const Pose2& start, const Goal& goal) const {
       slim_, {.start = start, .goal = goal.map_from_base, .turn = false, .margin_m = 0.02, .leaving_m = 0});
   for (std::size_t i = 0; route && i < route->size(); ++i) {
     for (const DoorPlan& door : closed_) {
-      const Pose2 there = door.map_from_door().Inverse() * (*route)[i];
+      const Pose2 there = door.map_from_door().Inverse() * (*route)[i].map_from_base;
       if (std::abs(there.x) < door.wall_thickness_m && std::abs(there.y) < door.opening_width_m / 2)
         return {
             fmt::format("the way to ({:.2f}, {:.2f}) leads through door '{}'; next: priamos mission door {}",

@@ -10,6 +10,7 @@
 #include "planner/core/map/learned_obstacles.hpp"
 #include "planner/core/path/narrow_passages.hpp"
 #include "planner/core/path/planned_path.hpp"
+#include "planner/core/path/route_search.hpp"
 #include "planner/core/path/swept_footprint.hpp"
 
 namespace priamos::planner {
@@ -18,6 +19,7 @@ namespace priamos::planner {
 struct RoutePlannerConfig {
   double easy_margin_m = 0.30;   ///< preferred clearance to everything
   double least_margin_m = 0.10;  ///< clearance where there is no such route
+  double least_leeway_m = 0;     ///< how far any line may be left at least, but in a narrow passage
   double turn_m = 0.15;          ///< what turning by 22.5 degrees costs, in metres driven forward
   double sideways = 0.15;        ///< driving backwards costs so much more, sideways half of it
   int most_poses = 0;            ///< looked at for either; 0: all
@@ -44,7 +46,7 @@ class RoutePlanner {
   void Learn(const LearnedWalls& learned, const Pose2& map_from_base);
 
   /// Straight lines with evenly turning heading to the goal, as few as there may be; each but the last 60 cm
-  /// with its leeway. Refuses with the reason.
+  /// with its leeway, which says of some that they lead through a narrow passage. Refuses with the reason.
   Outcome<PlannedPath> Plan(const Pose2& map_from_start, const Goal& goal) const;
   /// The same without a reason, which may take longer to find than a path.
   std::optional<PlannedPath> FindPath(const Pose2& map_from_start, const Goal& goal) const;
@@ -65,8 +67,9 @@ class RoutePlanner {
   std::optional<PlannedPath> FindPath(const Pose2& map_from_start, const Goal& goal, double wanted_m) const;
   void Rebuild();
   void EraseUnder(const Pose2& map_from_base, std::vector<NamedObstacle>& obstacles) const;
-  std::vector<Pose2> Straightened(const std::vector<Pose2>& route, double margin_m) const;
-  PlannedPath PathAlong(const Pose2& start, std::vector<Pose2> corners) const;
+  std::vector<RoutePose> Straightened(const std::vector<RoutePose>& route, double margin_m) const;
+  PlannedPath PathAlong(const Pose2& start, std::vector<RoutePose> corners) const;
+  Leeway LeewayOf(const Pose2& from, const Pose2& to, bool exact) const;
   std::optional<Refusal> CheckSize(const Pose2& start, const Goal& goal) const;
   Refusal NoWay(const Pose2& start, const Goal& goal) const;
 

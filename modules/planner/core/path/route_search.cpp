@@ -49,7 +49,7 @@ class Search {
         from_(cost_.size(), kNone),
         distance_m_(lattice_, -1) {}
 
-  std::optional<std::vector<Pose2>> Run() {
+  std::optional<std::vector<RoutePose>> Run() {
     BeginAtStart();
     int n_poses = 0;
     while (!open_.empty()) {
@@ -165,13 +165,14 @@ class Search {
         TryLine({here, from, cost_[from]}, end, kBesideLane_m, query_.margin_m);
   }
 
-  /// To its other end, and to the lattice beside it.
+  /// To its other end, and to the lattice beside it. In its middle walls are as far off as they can be: no
+  /// line of the lattice that just fits is better.
   void ExpandLane(std::size_t index) {
     const Pose2 here = PoseAt(index);
     const bool ahead = (index - lattice_) % 2 == 0;
     const std::size_t other = ahead ? index + 1 : index - 1;
     const double length_m = (PoseAt(other).translation() - here.translation()).norm();
-    Reach(other, cost_[index] + length_m * (1 + kNearWall) * (ahead ? 1 : 1 + query_.sideways), index);
+    Reach(other, cost_[index] + length_m * (ahead ? 1 : 1 + query_.sideways), index);
     const Eigen::Vector2i cell = field_.CellOf(here.translation());
     for (int x = cell.x() - 1; x <= cell.x() + 1; ++x)
       for (int y = cell.y() - 1; y <= cell.y() + 1; ++y)
@@ -215,10 +216,11 @@ class Search {
     return 1 + kNearWall * std::clamp(1 - spare_m / kNear_m, 0.0, 1.0);
   }
 
-  std::vector<Pose2> RouteTo(std::size_t index) const {
-    std::vector<Pose2> route;
-    for (std::size_t i = index; i != kStart; i = from_[i]) route.push_back(PoseAt(i));
-    route.push_back(query_.start);
+  std::vector<RoutePose> RouteTo(std::size_t index) const {
+    std::vector<RoutePose> route;
+    for (std::size_t i = index; i != kStart; i = from_[i])
+      route.push_back({PoseAt(i), i >= lattice_ && from_[i] >= lattice_ && from_[i] != kStart});
+    route.push_back({query_.start});
     std::reverse(route.begin(), route.end());
     return route;
   }
@@ -238,7 +240,7 @@ class Search {
 
 }  // namespace
 
-std::optional<std::vector<Pose2>> SearchRoute(const SweptFootprint& space, const RouteQuery& query) {
+std::optional<std::vector<RoutePose>> SearchRoute(const SweptFootprint& space, const RouteQuery& query) {
   return Search(space, query).Run();
 }
 

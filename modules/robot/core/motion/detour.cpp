@@ -22,6 +22,8 @@ constexpr double kAside = 0.3;   ///< per metre beside the path
 constexpr double kOther = 0.3;   ///< per metre beside the last detour
 constexpr double kTooNear = 40;  ///< nearer to a thing than it stops
 constexpr double kNear = 8;      ///< nearer to a thing than wished
+/// In a narrow passage, whose jambs seem to be broader than they are: as if they were so much farther off.
+constexpr std::array<std::pair<double, double>, 4> kInto{{{0, 100}, {0.05, 200}, {0.1, 400}, {0.15, 800}}};
 constexpr double kOutside = 20;  ///< per metre beyond the leeway
 constexpr double kMissed = 5;    ///< per metre beside the end of the path, once
 constexpr double kSideways = 3;  ///< straight to the side
@@ -95,15 +97,24 @@ double OutsideOf(const Leeway& leeway, double offset_m) {
   return std::max({0.0, offset_m - leeway.left_m, -offset_m - leeway.right_m});
 }
 
+/// What a metre costs that leads nearer to a thing than each of these distances, the largest first.
+std::vector<std::pair<double, double>> MarginsFor(const Leeway& leeway, const DetourConfig& config) {
+  std::vector<std::pair<double, double>> margins{{config.wish_m, kNear}, {config.stop_m, kTooNear}};
+  if (!leeway.narrow()) margins.push_back({config.least_m, kNowhere});
+  for (const auto& [into_m, cost] : kInto)
+    if (leeway.narrow()) margins.push_back({config.least_m - into_m, cost});
+  return margins;
+}
+
 /// What a metre of the path costs beside a station, per lane; kNowhere where the base may not be.
 Lanes CostsAt(const DetourSearch& search, const Station& station) {
   const DetourConfig& config = search.config;
   Lanes near{};
   const Eigen::Vector2d half = search.footprint.Size() / 2;
+  const auto margins = MarginsFor(station.leeway, config);
   for (const Eigen::Vector2d& thing : search.things) {
     const Eigen::Vector2d seen = station.base_from_map * thing;
-    for (const auto& [margin_m, cost] :
-         {std::pair{config.wish_m, kNear}, {config.stop_m, kTooNear}, {config.least_m, kNowhere}}) {
+    for (const auto& [margin_m, cost] : margins) {
       const auto offsets = OffsetsThatMeet(station.across, seen, half + Eigen::Vector2d::Constant(margin_m));
       if (offsets.first > offsets.second) break;  // with smaller margins neither
       Raise(near, offsets, cost);

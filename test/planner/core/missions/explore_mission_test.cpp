@@ -141,6 +141,15 @@ TEST(ExploreMissionTest, AHoldIsNotWaitedForForEver) {
   EXPECT_THAT(s.dut.state().text, HasSubstr("has held on its way for 12 s: the pose is stale"));
 }
 
+TEST(ExploreMissionTest, WhoStandsBeforeAnEchoIsBlocked) {
+  Story s;
+  s.Run(3);
+  s.robot.by_echo = true;
+  s.robot.RunFor(14);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDriving) << s.dut.state().text;
+  EXPECT_THAT(s.dut.state().text, HasSubstr("going back a bit"));
+}
+
 TEST(ExploreMissionTest, WhatTheHeadSawIsDrivenAround) {
   Story s;
   auto learned = std::make_shared<LearnedWalls>();

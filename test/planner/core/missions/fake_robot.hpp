@@ -34,6 +34,7 @@ class FakeRobot {
   bool silent = false;   ///< nothing comes through in either direction
   bool blocked = false;  ///< stands before an obstacle
   bool idle = false;     ///< stands on its way although nothing holds it
+  bool by_echo = false;  ///< so it does because of an echo, but does not say that it is blocked
   bool by_hand = false;  ///< an operator has the lease
   bool lost = false;     ///< holds, because it does not know where it is
   bool touched = false;  ///< stands because it touched something
@@ -120,7 +121,7 @@ class FakeRobot {
   /// Moves the truth by what brings the belief along the path.
   void Drive() {
     velocity_ = {};
-    if (route_.empty() || blocked || idle || touched || lost) return;
+    if (route_.empty() || blocked || idle || by_echo || touched || lost) return;
     const Pose2 believed = Believed();
     Pose2 next = believed;
     for (double left_m = paths.back().speed_m_s * Seconds(kStep); left_m > 0 && !route_.empty();)
@@ -190,15 +191,17 @@ class FakeRobot {
                       : route_.empty() ? DriveMode::kArrived
                                        : DriveMode::kFollowing,
                       path_id_,
-                      blocked ? "sonar"
-                      : lost  ? "the pose is stale"
-                              : "",
+                      blocked   ? "sonar"
+                      : lost    ? "the pose is stale"
+                      : by_echo ? "an echo is too near"
+                                : "",
                       false,
                       0,
                       touched,
                       Remaining(),
                       std::nullopt};
     drive.by_hand = by_hand;
+    drive.by_echo = by_echo;
     if (blocked) drive.mode = DriveMode::kBlocked;
     if (touched) drive.mode = DriveMode::kHolding;
     Later([this, pose, drive] {

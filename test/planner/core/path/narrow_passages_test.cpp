@@ -50,6 +50,15 @@ TEST(NarrowPassagesTest, ACorridorIsAsLongAsBothOfItsWalls) {
   EXPECT_NEAR(dut[0].half_long_m, 3.5, 1e-9);
 }
 
+TEST(PassageLanesTest, WithoutRoomTheyBeginNearer) {
+  ObstacleMap map = Opening(1.1);
+  map.Add("far wall", {{-1.4, 0, 0}, {0.05, 3}});  // 1.28 m before the wall with the opening
+  const auto dut = LanesThrough(NarrowPassagesOf(map, 0.98, 1.2), SweptFootprint(Footprint{}, map), 0.1);
+  ASSERT_EQ(dut.size(), 2u);
+  EXPECT_NEAR(std::abs(dut[0].before.x - dut[0].behind.x), 0.575 + 0.875 + 0.04, 1e-9)
+      << "the edges are 4 cm long";
+}
+
 TEST(PassageLanesTest, TheyLeadThroughBothWaysWithTheWholeBody) {
   const ObstacleMap map = Opening(1.1);
   const SweptFootprint space(Footprint{}, map);

@@ -91,6 +91,20 @@ TEST_F(DetourTest, EndsBeforeABoxWhereThereIsNoRoom) {
   EXPECT_LE(std::abs(detour.value_or(Detour()).At(2.5)), 0.3);
 }
 
+TEST_F(DetourTest, InANarrowPassageItKeepsToTheMiddleOfWhatSeemsToCloseIt) {
+  // Two jambs 1.05 m apart, 8 cm to the left of the path, each smeared by 15 cm.
+  std::vector<Eigen::Vector2d> jambs;
+  for (double y = 0; y <= 0.15; y += 0.05)
+    for (double x = 1.9; x <= 2.1; x += 0.05) {
+      jambs.emplace_back(x, 0.08 + 0.525 - y);
+      jambs.emplace_back(x, 0.08 - 0.525 + y);
+    }
+  const auto narrow = Find(Straight(kNarrowLine), jambs);
+  ASSERT_TRUE(narrow);
+  EXPECT_NEAR(narrow->At(2), 0.08, 0.05);
+  EXPECT_NEAR(narrow->At(4), 0, 0.05);
+}
+
 TEST_F(DetourTest, WithoutLeewayItStaysOnThePath) {
   const auto detour = Find(Straight({}), Square(1.4, 0.3, 0.15));
   EXPECT_FALSE(detour.value_or(Detour()).leaves());
