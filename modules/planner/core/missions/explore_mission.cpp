@@ -301,7 +301,7 @@ bool ExploreMission::GoBack(MissionControl& control, double length_m) {
   PlannedPath way{.points = exploration_.WayBack(length_m)};
   if (auto on = exploration_.WayOn(length_m); leads(on) < leads(way.points)) way.points = std::move(on);
   if (way.points.empty()) return false;
-  way.leeway.assign(way.points.size(), {kLeastLeeway_m, kLeastLeeway_m});
+  way.leeway = planner_.LeewayInPassages(BaseOf(control), way.points, {kLeastLeeway_m, kLeastLeeway_m});
   goal_.reset();
   backing_ = true;
   progress_.ResetIdle();

@@ -18,6 +18,9 @@ constexpr double kSamePlace_m = 0.2, kSameWay_rad = Radians(15);
 /// Obstacles that meet at an edge are equally near to the middle of the passage beside it.
 constexpr double kAsNear_m = 0.01;
 
+/// A line is looked at in such steps.
+constexpr double kSampled_m = 0.05;
+
 using Ends = std::pair<Vector2d, Vector2d>;
 
 /// Between disjoint rectangles a corner of one of them is always among the nearest points.
@@ -73,6 +76,24 @@ bool AreOne(const NarrowPassage& a, const NarrowPassage& b) {
 }
 
 }  // namespace
+
+bool NarrowPassage::IsCrossedBy(const Vector2d& from, const Vector2d& to) const {
+  const Pose2 passage_from_map = map_from_passage.Inverse();
+  const Vector2d a = passage_from_map * from, b = passage_from_map * to;
+  if ((a.x() < 0) == (b.x() < 0)) return false;
+  return std::abs(a.y() + (b.y() - a.y()) * a.x() / (a.x() - b.x())) < width_m / 2;
+}
+
+bool NarrowPassage::Holds(const Vector2d& from, const Vector2d& to, double half_body_m) const {
+  const Pose2 passage_from_map = map_from_passage.Inverse();
+  const Vector2d a = passage_from_map * from, b = passage_from_map * to;
+  const int steps = std::max(1, static_cast<int>(std::ceil((b - a).norm() / kSampled_m)));
+  for (int i = 0; i <= steps; ++i) {
+    const Vector2d at = a + (b - a) * (double(i) / steps);
+    if (std::abs(at.x()) < half_long_m + half_body_m && std::abs(at.y()) < width_m / 2) return true;
+  }
+  return false;
+}
 
 std::vector<NarrowPassage> NarrowPassagesOf(const ObstacleMap& obstacles, double least_m, double most_m) {
   std::vector<NarrowPassage> passages;

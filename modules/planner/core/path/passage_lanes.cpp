@@ -30,8 +30,8 @@ std::vector<PassageLane> LanesThrough(const std::vector<NarrowPassage>& passages
     const Pose2 behind = EndOf(middle, least_m, space, margin_m),
                 before = EndOf(middle * kAround, least_m, space, margin_m) * kAround;
     if (!space.IsFree(before, behind, margin_m)) continue;
-    lanes.push_back({before, behind});
-    lanes.push_back({behind * kAround, before * kAround});
+    lanes.push_back({before, behind, passage});
+    lanes.push_back({behind * kAround, before * kAround, passage});
   }
   return lanes;
 }

@@ -12,6 +12,7 @@ namespace priamos::planner {
 /// heading of the line.
 struct PassageLane {
   Pose2 before, behind;
+  NarrowPassage passage;
 };
 
 /// Both ways through each passage whose line is free with that margin.

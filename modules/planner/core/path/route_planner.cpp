@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "planner/core/path/route_search.hpp"
+
 namespace priamos::planner {
 namespace {
 
@@ -17,8 +19,8 @@ constexpr double kLines = 0.9;
 /// A route that is longer than the straight line times this, and this more, may be a long way round; one that
 /// is shorter by this factor is then better.
 constexpr double kRoundabout = 1.5, kAround_m = 3;
-/// Through what is so much wider than the base needs, the lattice fits.
-constexpr double kNarrow_m = 0.7;
+/// What is no more than so much wider than the base needs is a narrow passage.
+constexpr double kNarrow_m = 0.35;
 /// Length of the last line to the goal, which has no leeway.
 constexpr double kExact_m = 0.6;
 /// Floor over which a route is looked for at most: a search keeps 40 kB of each square metre.
@@ -209,42 +211,58 @@ std::optional<Refusal> RoutePlanner::CheckEnds(const Pose2& start, const Goal& g
   return std::nullopt;
 }
 
-/// From corner to corner, each the farthest that a straight line reaches, with all lanes as they are.
-std::vector<RoutePose> RoutePlanner::Straightened(const std::vector<RoutePose>& route,
-                                                  double margin_m) const {
-  std::vector<RoutePose> corners;
+/// From corner to corner, each the farthest that a straight line reaches; but narrow passages are passed on
+/// the lines that the search found.
+std::vector<Pose2> RoutePlanner::Straightened(const std::vector<Pose2>& route, double margin_m) const {
+  std::vector<Pose2> corners;
   for (std::size_t at = 0; at + 1 < route.size();) {
-    std::size_t last = at + 1, next = at + 1;
-    while (last + 1 < route.size() && !route[at + 1].lane && !route[last + 1].lane) ++last;
-    for (std::size_t to = last; to > next; --to)
-      if (space_.IsFree(route[at].map_from_base, route[to].map_from_base, margin_m)) next = to;
+    std::size_t next = at + 1;
+    for (std::size_t to = route.size() - 1; to > next; --to)
+      if (!IsNarrow(route[at], route[to]) && space_.IsFree(route[at], route[to], margin_m)) next = to;
     corners.push_back(route[next]);
     at = next;
   }
   return corners;
 }
 
-PlannedPath RoutePlanner::PathAlong(const Pose2& start, std::vector<RoutePose> corners) const {
-  // Around things beside it the base would end beside the goal: the last bit is driven as it is planned.
-  const Pose2 before = corners.size() > 1 ? corners[corners.size() - 2].map_from_base : start,
-              goal = corners.back().map_from_base;
-  const double last_m = (goal.translation() - before.translation()).norm();
-  if (last_m > kExact_m && !corners.back().lane)
-    corners.insert(corners.end() - 1, {Between(before, goal, 1 - kExact_m / last_m)});
+PlannedPath RoutePlanner::PathAlong(const Pose2& start, std::vector<Pose2> corners) const {
   PlannedPath path;
   path.min_gap_m = space_.At(start).distance_m;
+  // Around things beside it the base would end beside the goal: the last bit is driven as it is planned.
+  const Pose2 before = corners.size() > 1 ? corners[corners.size() - 2] : start;
+  const double last_m = (corners.back().translation() - before.translation()).norm();
+  if (last_m > kExact_m)
+    corners.insert(corners.end() - 1, Between(before, corners.back(), 1 - kExact_m / last_m));
   Pose2 from = start;
-  for (const RoutePose& corner : corners) {
-    const Pose2& to = corner.map_from_base;
+  for (const Pose2& to : corners) {
     path.min_gap_m = std::min(path.min_gap_m, space_.Along(from, to).distance_m);
-    path.leeway.push_back(corner.lane ? kNarrowLine : LeewayOf(from, to, &corner == &corners.back()));
-    path.points.push_back(to);
+    path.leeway.push_back(LeewayOf(from, to, &to == &corners.back()));
     from = to;
   }
+  path.points = std::move(corners);
   return path;
 }
 
+bool RoutePlanner::IsNarrow(const Pose2& from, const Pose2& to) const {
+  return std::any_of(passages_.begin(), passages_.end(), [&](const NarrowPassage& passage) {
+    return passage.Holds(from.translation(), to.translation(), space_.footprint().length_m / 2);
+  });
+}
+
+std::vector<Leeway> RoutePlanner::LeewayInPassages(const Pose2& map_from_start,
+                                                   const std::vector<Pose2>& points,
+                                                   const Leeway& elsewhere) const {
+  std::vector<Leeway> leeway;
+  Pose2 from = map_from_start;
+  for (const Pose2& to : points) {
+    leeway.push_back(IsNarrow(from, to) ? kNarrowLine : elsewhere);
+    from = to;
+  }
+  return leeway;
+}
+
 Leeway RoutePlanner::LeewayOf(const Pose2& from, const Pose2& to, bool exact) const {
+  if (IsNarrow(from, to)) return kNarrowLine;
   const Leeway free = exact ? Leeway{} : space_.LeewayOf(from, to, config_.least_margin_m);
   return {std::max(free.left_m, config_.least_leeway_m), std::max(free.right_m, config_.least_leeway_m)};
 }
@@ -255,7 +273,7 @@ Refusal RoutePlanner::NoWay(const Pose2& start, const Goal& goal) const {
       slim_, {.start = start, .goal = goal.map_from_base, .turn = false, .margin_m = 0.02, .leaving_m = 0});
   for (std::size_t i = 0; route && i < route->size(); ++i) {
     for (const DoorPlan& door : closed_) {
-      const Pose2 there = door.map_from_door().Inverse() * (*route)[i].map_from_base;
+      const Pose2 there = door.map_from_door().Inverse() * (*route)[i];
       if (std::abs(there.x) < door.wall_thickness_m && std::abs(there.y) < door.opening_width_m / 2)
         return {
             fmt::format("the way to ({:.2f}, {:.2f}) leads through door '{}'; next: priamos mission door {}",

@@ -10,7 +10,6 @@
 #include "planner/core/map/learned_obstacles.hpp"
 #include "planner/core/path/narrow_passages.hpp"
 #include "planner/core/path/planned_path.hpp"
-#include "planner/core/path/route_search.hpp"
 #include "planner/core/path/swept_footprint.hpp"
 
 namespace priamos::planner {
@@ -60,6 +59,9 @@ class RoutePlanner {
   }
   /// Name of what the first of these lines that is not free touches; empty: nothing is in the way.
   std::string InTheWay(const Pose2& map_from_start, const std::vector<Pose2>& points) const;
+  /// How far each of these lines may be left: by so much, but in a narrow passage.
+  std::vector<Leeway> LeewayInPassages(const Pose2& map_from_start, const std::vector<Pose2>& points,
+                                       const Leeway& elsewhere) const;
   /// Why no route can begin or end there, whatever lies between.
   std::optional<Refusal> CheckEnds(const Pose2& start, const Goal& goal) const;
 
@@ -67,8 +69,9 @@ class RoutePlanner {
   std::optional<PlannedPath> FindPath(const Pose2& map_from_start, const Goal& goal, double wanted_m) const;
   void Rebuild();
   void EraseUnder(const Pose2& map_from_base, std::vector<NamedObstacle>& obstacles) const;
-  std::vector<RoutePose> Straightened(const std::vector<RoutePose>& route, double margin_m) const;
-  PlannedPath PathAlong(const Pose2& start, std::vector<RoutePose> corners) const;
+  std::vector<Pose2> Straightened(const std::vector<Pose2>& route, double margin_m) const;
+  PlannedPath PathAlong(const Pose2& start, std::vector<Pose2> corners) const;
+  bool IsNarrow(const Pose2& from, const Pose2& to) const;
   Leeway LeewayOf(const Pose2& from, const Pose2& to, bool exact) const;
   std::optional<Refusal> CheckSize(const Pose2& start, const Goal& goal) const;
   Refusal NoWay(const Pose2& start, const Goal& goal) const;

@@ -49,7 +49,7 @@ class Search {
         from_(cost_.size(), kNone),
         distance_m_(lattice_, -1) {}
 
-  std::optional<std::vector<RoutePose>> Run() {
+  std::optional<std::vector<Pose2>> Run() {
     BeginAtStart();
     int n_poses = 0;
     while (!open_.empty()) {
@@ -118,11 +118,19 @@ class Search {
   /// A straight line to a pose that is no farther, and about as turned.
   void TryLine(const From& from, std::size_t to, double most_m, double margin_m) {
     const Pose2 there = PoseAt(to);
+    if (to < lattice_ && IsBarred(from.pose, there)) return;
     const double distance_m = (there.translation() - from.pose.translation()).norm();
     const double turn_rad = std::abs(WrapAngle(there.yaw - from.pose.yaw));
     if (distance_m > most_m || turn_rad > 1.01 * kTurn_rad) return;
     const double cost = from.cost + distance_m + turn_rad / kTurn_rad * query_.turn_m;
     if (cost < cost_[to] && space_.IsFree(from.pose, there, margin_m)) Reach(to, cost, from.index);
+  }
+
+  /// What has a lane is passed on it.
+  bool IsBarred(const Pose2& from, const Pose2& to) const {
+    return std::any_of(lanes_.begin(), lanes_.end(), [&](const PassageLane& lane) {
+      return lane.passage.IsCrossedBy(from.translation(), to.translation());
+    });
   }
 
   double ToGoal(std::size_t index) const {
@@ -202,6 +210,7 @@ class Search {
   /// Pythagoras the distances at both ends tell enough.
   bool MoveIsFree(std::size_t from, const Pose2& here, const Node& next, double length_m) {
     if (field_.SurelyFree(next.x, next.y)) return true;
+    if (IsBarred(here, PoseOf(next))) return false;
     return LeastAtEnds(from, here, next) >= std::hypot(query_.margin_m, length_m / 2);
   }
 
@@ -216,11 +225,10 @@ class Search {
     return 1 + kNearWall * std::clamp(1 - spare_m / kNear_m, 0.0, 1.0);
   }
 
-  std::vector<RoutePose> RouteTo(std::size_t index) const {
-    std::vector<RoutePose> route;
-    for (std::size_t i = index; i != kStart; i = from_[i])
-      route.push_back({PoseAt(i), i >= lattice_ && from_[i] >= lattice_ && from_[i] != kStart});
-    route.push_back({query_.start});
+  std::vector<Pose2> RouteTo(std::size_t index) const {
+    std::vector<Pose2> route;
+    for (std::size_t i = index; i != kStart; i = from_[i]) route.push_back(PoseAt(i));
+    route.push_back(query_.start);
     std::reverse(route.begin(), route.end());
     return route;
   }
@@ -240,7 +248,7 @@ class Search {
 
 }  // namespace
 
-std::optional<std::vector<RoutePose>> SearchRoute(const SweptFootprint& space, const RouteQuery& query) {
+std::optional<std::vector<Pose2>> SearchRoute(const SweptFootprint& space, const RouteQuery& query) {
   return Search(space, query).Run();
 }
 

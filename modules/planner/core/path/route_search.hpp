@@ -22,17 +22,11 @@ struct RouteQuery {
   std::vector<NarrowPassage> passages{};  ///< through which it may lead although the lattice does not fit
 };
 
-/// One pose of a route.
-struct RoutePose {
-  Pose2 map_from_base;
-  bool lane = false;  ///< the line to it leads through the middle of a narrow passage
-};
-
 /// A quick route of the true footprint on a lattice of poses: places 10 cm apart, 16 headings, counted
 /// from the goal so that it ends there exactly, and on straight lines through the middles of narrow passages,
 /// for which neither places nor headings of the lattice need fit. Weighted A* with the distance around the
 /// obstacles as heuristic; it prefers to drive forward and to keep off walls. Returns start, lattice poses
 /// and goal; nullopt: there is no such route. Every pose is looked at once at most, so it always ends.
-std::optional<std::vector<RoutePose>> SearchRoute(const SweptFootprint& space, const RouteQuery& query);
+std::optional<std::vector<Pose2>> SearchRoute(const SweptFootprint& space, const RouteQuery& query);
 
 }  // namespace priamos::planner

@@ -39,6 +39,16 @@ TEST(NarrowPassagesTest, WhatStandsInTheMiddleLeavesNone) {
   EXPECT_TRUE(NarrowPassagesOf(map, 0.98, 1.7).empty());
 }
 
+TEST(NarrowPassagesTest, ALineCrossesThemOrNot) {
+  const NarrowPassage dut{{1, 2, kPi / 2}, 1.1};
+  EXPECT_TRUE(dut.IsCrossedBy({1.2, 1}, {0.8, 3}));
+  EXPECT_FALSE(dut.IsCrossedBy({1.2, 1}, {0.8, 1.9}));
+  EXPECT_FALSE(dut.IsCrossedBy({2, 1}, {2, 3})) << "beside it";
+  EXPECT_TRUE(dut.Holds({1, 0}, {1, 1.6}, 0.475)) << "with its front";
+  EXPECT_FALSE(dut.Holds({1, 0}, {1, 1.4}, 0.475));
+  EXPECT_FALSE(dut.Holds({2, 0}, {2, 4}, 0.475));
+}
+
 TEST(NarrowPassagesTest, ACorridorIsAsLongAsBothOfItsWalls) {
   ObstacleMap map{GroundPlan{}};
   map.Add("south", {{0, -0.57, 0}, {4, 0.05}});

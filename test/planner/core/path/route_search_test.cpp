@@ -12,10 +12,10 @@ SweptFootprint SpaceOf(const GroundPlan& plan) {
   return SweptFootprint(Footprint{}, ObstacleMap(plan));
 }
 
-double LengthOf(const std::vector<RoutePose>& route) {
+double LengthOf(const std::vector<Pose2>& route) {
   double length_m = 0;
   for (std::size_t i = 1; i < route.size(); ++i)
-    length_m += (route[i].map_from_base.translation() - route[i - 1].map_from_base.translation()).norm();
+    length_m += (route[i].translation() - route[i - 1].translation()).norm();
   return length_m;
 }
 
@@ -23,11 +23,11 @@ TEST(SearchRouteTest, ItBeginsAtTheStartAndEndsAtTheGoalExactly) {
   const RouteQuery query{.start = {1.03, 2.38, 0.1}, .goal = {4.51, 1.27, 1.0}};
   const auto dut = SearchRoute(SpaceOf(ShippedPlan()), query);
   ASSERT_TRUE(dut);
-  EXPECT_EQ(dut->front().map_from_base.x, 1.03);
-  EXPECT_EQ(dut->front().map_from_base.yaw, 0.1);
-  EXPECT_NEAR(dut->back().map_from_base.x, 4.51, 1e-12);
-  EXPECT_NEAR(dut->back().map_from_base.y, 1.27, 1e-12);
-  EXPECT_NEAR(dut->back().map_from_base.yaw, 1.0, 1e-12);
+  EXPECT_EQ(dut->front().x, 1.03);
+  EXPECT_EQ(dut->front().yaw, 0.1);
+  EXPECT_NEAR(dut->back().x, 4.51, 1e-12);
+  EXPECT_NEAR(dut->back().y, 1.27, 1e-12);
+  EXPECT_NEAR(dut->back().yaw, 1.0, 1e-12);
   EXPECT_LT(LengthOf(*dut), 1.15 * std::hypot(3.48, 1.11));
 }
 
@@ -35,7 +35,7 @@ TEST(SearchRouteTest, WithoutAHeadingToHaveItKeepsItsOwnOrTurnsAsItLikes) {
   const auto dut =
       SearchRoute(SpaceOf(ShippedPlan()), {.start = {1, 2.4, 0.3}, .goal = {4, 2.4, 2}, .turn = false});
   ASSERT_TRUE(dut);
-  EXPECT_LT(std::abs(dut->back().map_from_base.yaw), 0.8) << "driving forward is cheaper";
+  EXPECT_LT(std::abs(dut->back().yaw), 0.8) << "driving forward is cheaper";
 }
 
 TEST(SearchRouteTest, EveryStepKeepsTheMargin) {
@@ -46,7 +46,7 @@ TEST(SearchRouteTest, EveryStepKeepsTheMargin) {
       SearchRoute(space, {.start = {1, 1, 0}, .goal = {4, 1, 0}, .margin_m = 0.2, .leaving_m = 0.2});
   ASSERT_TRUE(dut);
   for (std::size_t i = 1; i < dut->size(); ++i)
-    EXPECT_GE(space.Along((*dut)[i - 1].map_from_base, (*dut)[i].map_from_base).distance_m, 0.2 - 1e-3) << i;
+    EXPECT_GE(space.Along((*dut)[i - 1], (*dut)[i]).distance_m, 0.2 - 1e-3) << i;
 }
 
 TEST(SearchRouteTest, AGapThatFitsLengthwiseOnlyIsPassedLengthwise) {
@@ -57,7 +57,7 @@ TEST(SearchRouteTest, AGapThatFitsLengthwiseOnlyIsPassedLengthwise) {
       SpaceOf(plan),
       {.start = {1.2, 2.4, kPi / 2}, .goal = {4.8, 2.4, kPi / 2}, .margin_m = 0.08, .leaving_m = 0.08});
   ASSERT_TRUE(dut);
-  for (const auto& [pose, lane] : *dut) {
+  for (const Pose2& pose : *dut) {
     if (std::abs(pose.x - 3) < 0.3) {
       EXPECT_GT(std::abs(std::cos(pose.yaw)), 0.9) << "beside the screens";
     }
@@ -82,7 +82,7 @@ RC_GTEST_PROP(SearchRouteTest, AnOpeningThatIsWideEnoughIsPassed, ()) {
   const auto dut = SearchRoute(space, query);
   RC_ASSERT(dut.has_value());
   for (std::size_t i = 1; i < dut->size(); ++i)
-    RC_ASSERT(space.Along((*dut)[i - 1].map_from_base, (*dut)[i].map_from_base).distance_m > 0.1 - 1e-3);
+    RC_ASSERT(space.Along((*dut)[i - 1], (*dut)[i]).distance_m > 0.1 - 1e-3);
 }
 
 TEST(SearchRouteTest, WhoStandsInANarrowPassageDrivesOn) {
