@@ -1,6 +1,8 @@
 #include "planner/core/explore/exploration.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -22,6 +24,8 @@ constexpr double kTrail_m = 0.15;
 constexpr double kSamePlace_m = 0.5;
 /// A beam, the pose and the time of a report put what was heard so far off.
 constexpr double kHeard_m = 0.25;
+/// Places on the arc of an echo, beside the one that is told of it.
+constexpr std::array kBearings_rad{0.0, Radians(-6), Radians(6), Radians(-12), Radians(12)};
 /// What is so near to a place that was given up is given up as well.
 constexpr double kGivenUp_m = 0.6;
 /// A corner or an edge is taken for half as broad.
@@ -148,7 +152,13 @@ void Exploration::DropDrivenOver(const Vector2d& at) {
   }
 }
 
-bool Exploration::Knows(const Vector2d& heard) const {
+bool Exploration::Knows(const Vector2d& heard, const Vector2d& from) const {
+  return std::any_of(kBearings_rad.begin(), kBearings_rad.end(), [&](double bearing_rad) {
+    return IsKnown(from + Eigen::Rotation2Dd(bearing_rad) * (heard - from));
+  });
+}
+
+bool Exploration::IsKnown(const Vector2d& heard) const {
   const auto is_wall = [&](const LearnedWall& wall) {
     return DistanceToSegment(wall.from(), wall.to(), heard) < kHeard_m;
   };

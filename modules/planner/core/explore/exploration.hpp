@@ -82,8 +82,9 @@ class Exploration {
   /// Something that is no wall is here, of which one side is known only: it is made smaller as far as it
   /// would close a way that the base has driven. Returns whether anything is left of it.
   bool AddThing(Rectangle thing);
-  /// Whether a wall or a thing is known to stand there, as far as a place is known that was heard.
-  bool Knows(const Eigen::Vector2d& heard) const;
+  /// Whether what was heard there, from a base at `from`, can be a wall, an edge or a thing that is known: an
+  /// echo lies anywhere on an arc.
+  bool Knows(const Eigen::Vector2d& heard, const Eigen::Vector2d& from) const;
   /// What is around this place of a frontier is not tried, or, `for_good`, never again.
   void GiveUp(const Eigen::Vector2d& target, std::string reason, bool for_good = false);
 
@@ -134,6 +135,7 @@ class Exploration {
   std::optional<Candidate> Best(const Frontier& frontier, const GridWays& ways, const Pose2& base) const;
   double CostOf(const Frontier& frontier, const Eigen::Vector2i& cell, const GridWays& ways,
                 const Pose2& base) const;
+  bool IsKnown(const Eigen::Vector2d& place) const;
   bool ClosesTrail(const Rectangle& thing) const;
   void DropDrivenOver(const Eigen::Vector2d& at);
   std::size_t Here() const;

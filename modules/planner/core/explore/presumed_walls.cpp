@@ -46,11 +46,22 @@ LearnedWall Continued(const LearnedWall& wall, double to_m) {
   return piece;
 }
 
+/// The places of a trail but for its last metres.
+std::vector<Vector2d> WithoutLast(std::vector<Vector2d> trail, double most_m) {
+  double left_m = most_m;
+  while (trail.size() > 1 && left_m > 0) {
+    left_m -= (trail.back() - trail[trail.size() - 2]).norm();
+    trail.pop_back();
+  }
+  if (left_m > 0) trail.clear();
+  return trail;
+}
+
 /// What is known of the ends of walls.
 class WallEnds {
  public:
   WallEnds(const LearnedWalls& walls, const std::vector<Vector2d>& trail, const PresumedWallConfig& config)
-      : walls_(walls), trail_(trail), config_(config) {}
+      : walls_(walls), trail_(trail), past_(WithoutLast(trail, config.told_m)), config_(config) {}
 
   /// No wall goes on farther.
   double most_m() const { return std::max({config_.corner_m, config_.heard_m, config_.unheard_m}); }
@@ -66,7 +77,7 @@ class WallEnds {
     const auto passed = [&](const Vector2d& at) {
       return (at - end).norm() < config_.passed_m && (from_map * at).y() > 0;
     };
-    return !WasHeard(end, kSameEdge_m) && std::any_of(trail_.begin(), trail_.end(), passed);
+    return !WasHeard(end, kSameEdge_m) && std::any_of(past_.begin(), past_.end(), passed);
   }
   /// Whether the base was there, which nothing can be then.
   bool WasPassed(const LearnedWall& piece) const {
@@ -83,6 +94,7 @@ class WallEnds {
 
   const LearnedWalls& walls_;
   const std::vector<Vector2d>& trail_;
+  std::vector<Vector2d> past_;  ///< of the trail, where an edge that was heard has been told
   const PresumedWallConfig& config_;
 };
 
@@ -116,6 +128,7 @@ std::optional<LearnedWall> ToNext(const LearnedWall& wall, const LearnedWall& ne
 void PresumedWallConfig::Describe(Archive& a) {
   a.Number("corner_m", corner_m, {"m", 0, 2, "walls meet where no more than so much of either is missing"});
   a.Number("passed_m", passed_m, {"m", 0, 5, "so near to the end of a wall an edge would be heard"});
+  a.Number("told_m", told_m, {"m", 0, 10, "and would be told after so much more driving"});
   a.Number("heard_m", heard_m,
            {"m", 0, 6, "where none was the wall goes on so far to a corner that was heard"});
   a.Number("unheard_m", unheard_m, {"m", 0, 6, "or so far to another wall"});

@@ -185,10 +185,11 @@ bool ExploreMission::NoteThing(const MissionControl& control) {
 /// Who hears something ahead does not drive up to it: there it could not even turn.
 void ExploreMission::NoteAhead(const MissionControl& control) {
   const auto& nearest = control.heard().drive->nearest;
-  if (!nearest || nearest->free_m > config_.meets_m || exploration_.Knows(BaseOf(control) * nearest->at))
-    return;
+  if (!nearest || nearest->free_m > config_.meets_m) return;
+  const Pose2 base = BaseOf(control);
+  if (exploration_.Knows(base * nearest->at, base.translation())) return;
   if (!NoteThing(control)) return;
-  KeepOff(*goal_, BaseOf(control));
+  KeepOff(*goal_, base);
   considered_.reset();
 }
 

@@ -173,36 +173,46 @@ TEST(ExplorationTest, AThingDoesNotCloseWhereTheBaseWasAndIsNoneWhereItDrives) {
   Exploration dut({}, kWidth_m, {});
   for (double x = 0; x <= 3; x += 0.2) dut.NoteAt({x, 0, 0});
   EXPECT_FALSE(dut.AddThing({{1, 0.3, 0}, {0.4, 0.4}}));
-  EXPECT_FALSE(dut.Knows({1, 0.3}));
+  EXPECT_FALSE(dut.Knows({1, 0.3}, {0, 0}));
   EXPECT_TRUE(dut.AddThing({{1, 0.9, 0}, {0.4, 0.4}})) << "the jamb of an opening that it passed";
-  EXPECT_TRUE(dut.Knows({1, 0.9}));
-  EXPECT_FALSE(dut.Knows({1, 0.4})) << "it is smaller";
+  EXPECT_TRUE(dut.Knows({1, 0.9}, {0, 0}));
+  EXPECT_FALSE(dut.Knows({1, 0.2}, {0, 0})) << "it is smaller";
   EXPECT_TRUE(dut.AddThing({{4.4, 0, 0}, {0.4, 0.4}}));
   dut.NoteAt({3.8, 0, 0});
-  EXPECT_FALSE(dut.Knows({4.2, 0}));
+  EXPECT_FALSE(dut.Knows({4.2, 0}, {0, 0}));
 }
 
 TEST(ExplorationTest, WhatTheHeadSawIsKeptOffButDoesNotCloseWhereTheBaseWas) {
   Exploration dut({}, kWidth_m, {});
   for (double x = 0; x <= 3; x += 0.2) dut.NoteAt({x, 0, 0});
   dut.Learn({}, {{"thing 1", {{1, 0.3, 0}, {0.2, 0.2}}}, {"thing 2", {{3.9, 0, 0}, {0.2, 0.3}}}});
-  EXPECT_FALSE(dut.Knows({1, 0.3}));
-  EXPECT_TRUE(dut.Knows({3.9, 0}));
+  EXPECT_FALSE(dut.Knows({1, 0.3}, {0, 0}));
+  EXPECT_TRUE(dut.Knows({3.9, 0}, {0, 0}));
   EXPECT_EQ(dut.grid().At(Eigen::Vector2d(3.9, 0)), ExploredGrid::Cell::kClosed);
   const auto obstacles = dut.ThingsForWays();
   ASSERT_FALSE(obstacles.empty());
   EXPECT_EQ(obstacles.back().name, "a thing that the head saw");
   EXPECT_EQ(obstacles.back().shape.map_from_centre.x, 3.9);
   dut.Learn({});
-  EXPECT_FALSE(dut.Knows({3.9, 0})) << "it is told of no more";
+  EXPECT_FALSE(dut.Knows({3.9, 0}, {0, 0})) << "it is told of no more";
 }
 
 TEST(ExplorationTest, WhatWasHeardIsKnownWhereAThingOrAWallStands) {
   Exploration dut({}, kWidth_m, {});
-  EXPECT_FALSE(dut.Knows({2, 1}));
+  EXPECT_FALSE(dut.Knows({2, 1}, {0, 0}));
   dut.AddThing({{2, 1.3, 0}, {0.2, 0.2}});
-  EXPECT_TRUE(dut.Knows({2, 1}));
-  EXPECT_FALSE(dut.Knows({2, 0.5}));
+  EXPECT_TRUE(dut.Knows({2, 1}, {0, 0}));
+  EXPECT_FALSE(dut.Knows({2, 0.3}, {0, 0}));
+}
+
+TEST(ExplorationTest, AnEchoOfAnEdgeLiesAnywhereOnItsArc) {
+  Exploration dut({}, kWidth_m, {});
+  LearnedWalls walls;
+  walls.points = {{8.08, 0.67, 0.02, 0}};
+  dut.Learn(walls);
+  EXPECT_TRUE(dut.Knows({8.21, 0.38}, {7.31, -0.27}));
+  EXPECT_FALSE(dut.Knows({8.46, -0.27}, {7.31, -0.27})) << "in another direction";
+  EXPECT_FALSE(dut.Knows({8.6, 0.7}, {7.31, -0.27})) << "farther away";
 }
 
 TEST(ExplorationTest, WhatIsTooFarIsLeft) {

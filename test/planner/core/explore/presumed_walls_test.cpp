@@ -10,7 +10,7 @@ namespace {
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-const PresumedWallConfig kConfig;
+const PresumedWallConfig kConfig{.told_m = 0};
 
 /// Two walls of a room whose corner is at (3, 0): one along x with the room above, one along y with the room
 /// to its left; so much of each is missing.
@@ -45,6 +45,16 @@ TEST(PresumedWallsTest, WhereTheCornerWasHeardMoreMayBeMissing) {
   EXPECT_THAT(PresumedWalls(walls, {}, kConfig), IsEmpty()) << "nobody was near the ends";
   walls.points.push_back({0.8, 0.1, 0.02, 0});
   EXPECT_THAT(PresumedWalls(walls, past, kConfig), IsEmpty()) << "an opening between it and the corner";
+}
+
+TEST(PresumedWallsTest, AnEdgeMayStillBeToldOfAnEndThatWasPassedJustNow) {
+  const LearnedWalls walls = Corner(1.4, 0.2);
+  std::vector<Eigen::Vector2d> trail;
+  for (double x = 1; x > -2; x -= 0.2) trail.push_back({x, 1});  // 2.8 m on
+  const PresumedWallConfig config{.told_m = 2};
+  EXPECT_THAT(PresumedWalls(walls, trail, config), SizeIs(2));
+  trail.resize(8);
+  EXPECT_THAT(PresumedWalls(walls, trail, config), IsEmpty());
 }
 
 TEST(PresumedWallsTest, WhereTheBaseWasIsNoWall) {
