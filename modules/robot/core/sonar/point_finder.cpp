@@ -27,27 +27,22 @@ void PointFinderConfig::Describe(Archive& a) {
   a.Section("fit", fit, "which echoes are those of one place");
 }
 
+PointFinder::PointFinder(const PointFinderConfig& config)
+    : config_(config), waiting_({config.window_m, config.window_s, kMostOfNone}) {}
+
 std::vector<const FoundPoint*> PointFinder::Add(std::span<const PlacedEcho> unexplained, Time now) {
   std::vector<const FoundPoint*> changed;
   if (!unexplained.empty()) Forget(now, unexplained.back().travel_m);
   std::vector<PlacedEcho> rest;
   for (const PlacedEcho& echo : unexplained)
     if (!Grow(echo, now, changed)) rest.push_back(echo);
-  for (const PlacedEcho& echo : rest) {
-    waiting_.push_back({now, echo});
-    votes_.Add(echo);
-  }
+  for (const PlacedEcho& echo : rest) waiting_.Add(echo, now);
   if (const FoundPoint* found = Begin(rest, now)) changed.push_back(found);
   return changed;
 }
 
 void PointFinder::Forget(Time now, double travel_m) {
-  while (!waiting_.empty() &&
-         (waiting_.size() > kMostOfNone || travel_m - waiting_.front().echo.travel_m > config_.window_m ||
-          now - waiting_.front().time > FromSeconds(config_.window_s))) {
-    votes_.Remove(waiting_.front().echo);
-    waiting_.pop_front();
-  }
+  waiting_.Forget(now, travel_m);
   std::erase_if(points_,
                 [&](const Point& point) { return travel_m - point.found.travel_m > config_.keep_m; });
 }
@@ -75,13 +70,14 @@ bool PointFinder::Grow(const PlacedEcho& echo, Time now, std::vector<const Found
 const FoundPoint* PointFinder::Begin(std::span<const PlacedEcho> newest, Time now) {
   VotedPlace voted;
   for (const PlacedEcho& echo : newest)
-    if (const VotedPlace best = votes_.Best(echo); best.votes > voted.votes) voted = best;
+    if (const VotedPlace best = waiting_.votes().Best(echo); best.votes > voted.votes) voted = best;
   if (voted.votes < config_.votes) return nullptr;
   const Vector2d place = Refined(voted.at);
   std::vector<PlacedEcho> echoes = Supporters(place, config_.gate_m);
   const auto fit = FitPoint(echoes, place, config_.fit);
   if (!fit) return nullptr;
-  Release(fit->at);
+  waiting_.Release(
+      [&](const PlacedEcho& echo) { return MayComeFrom(echo, fit->at, config_.gate_m, config_.fit); });
   const PlacedEcho last = echoes.back();
   const Vector2d off = fit->at - last.odom_from_base.translation();
   points_.push_back(
@@ -101,19 +97,10 @@ Vector2d PointFinder::Refined(Vector2d place) const {
 
 std::vector<PlacedEcho> PointFinder::Supporters(const Vector2d& place, double gate_m) const {
   std::vector<PlacedEcho> echoes;
-  for (const Waiting& waiting : waiting_)
-    if (MayComeFrom(waiting.echo, place, gate_m, config_.fit)) echoes.push_back(waiting.echo);
+  for (std::size_t i = 0; i < waiting_.size(); ++i)
+    if (MayComeFrom(waiting_[i], place, gate_m, config_.fit)) echoes.push_back(waiting_[i]);
   if (echoes.size() > kMostOfOne) echoes.erase(echoes.begin(), echoes.end() - kMostOfOne);
   return echoes;
-}
-
-/// What a place explains waits no more.
-void PointFinder::Release(const Vector2d& place) {
-  std::erase_if(waiting_, [&](const Waiting& waiting) {
-    if (!MayComeFrom(waiting.echo, place, config_.gate_m, config_.fit)) return false;
-    votes_.Remove(waiting.echo);
-    return true;
-  });
 }
 
 }  // namespace priamos::robot

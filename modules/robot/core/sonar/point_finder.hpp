@@ -7,6 +7,7 @@
 #include "common/time.hpp"
 #include "robot/core/sonar/arc_votes.hpp"
 #include "robot/core/sonar/point_fit.hpp"
+#include "robot/core/sonar/waiting_echoes.hpp"
 
 namespace priamos::robot {
 
@@ -36,16 +37,12 @@ struct FoundPoint {
 /// better by every echo.
 class PointFinder {
  public:
-  explicit PointFinder(const PointFinderConfig& config) : config_(config) {}
+  explicit PointFinder(const PointFinderConfig& config);
 
   /// Takes the echoes of a cycle that no wall explains. Returns the places that began or changed.
   std::vector<const FoundPoint*> Add(std::span<const PlacedEcho> unexplained, Time now);
 
  private:
-  struct Waiting {
-    Time time{};
-    PlacedEcho echo;
-  };
   struct Point {
     FoundPoint found;
     std::vector<PlacedEcho> echoes;
@@ -55,11 +52,9 @@ class PointFinder {
   const FoundPoint* Begin(std::span<const PlacedEcho> newest, Time now);
   Eigen::Vector2d Refined(Eigen::Vector2d place) const;
   std::vector<PlacedEcho> Supporters(const Eigen::Vector2d& place, double gate_m) const;
-  void Release(const Eigen::Vector2d& place);
 
   PointFinderConfig config_;
-  ArcVotes votes_;
-  std::deque<Waiting> waiting_;  ///< oldest first
+  WaitingEchoes<ArcVotes> waiting_;  ///< for a place that explains them
   std::deque<Point> points_;
   int last_number_ = 0;
 };

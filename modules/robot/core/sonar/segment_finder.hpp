@@ -9,6 +9,7 @@
 #include "robot/core/base/footprint.hpp"
 #include "robot/core/sonar/line_votes.hpp"
 #include "robot/core/sonar/sonar_cycle.hpp"
+#include "robot/core/sonar/waiting_echoes.hpp"
 #include "robot/core/sonar/wall_segment.hpp"
 
 namespace priamos::robot {
@@ -53,10 +54,6 @@ class SegmentFinder {
   double travel_m() const { return travel_m_; }
 
  private:
-  struct Waiting {
-    Time time{};
-    PlacedEcho echo;
-  };
   std::vector<PlacedEcho> NewEchoes(const SonarCycle& cycle, const Pose2& odom_from_base);
   std::vector<PlacedEcho> Explain(std::vector<PlacedEcho> echoes, Time time,
                                   std::vector<const FoundSegment*>& changed);
@@ -64,7 +61,6 @@ class SegmentFinder {
   const FoundSegment* Begin(const PlacedEcho& echo, Time time);
   std::vector<PlacedEcho> Supporters(const VotedLine& line, const PlacedEcho& newest) const;
   bool IsRatherALine(const std::vector<PlacedEcho>& echoes, double angle_rad) const;
-  void Release(const WallSegment& wall);
 
   SegmentFinderConfig config_;
   OdometryNoise noise_;
@@ -74,8 +70,7 @@ class SegmentFinder {
   Pose2 last_base_;
   bool moved_before_ = false;
   double travel_m_ = 0;
-  LineVotes votes_;
-  std::deque<Waiting> waiting_;  ///< echoes that no wall explains, oldest first
+  WaitingEchoes<LineVotes> waiting_;  ///< for a wall that explains them
   std::vector<PlacedEcho> unexplained_;
   std::deque<FoundSegment> segments_;
   int last_number_ = 0;
