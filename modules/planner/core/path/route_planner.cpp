@@ -66,8 +66,9 @@ double LeavingMargin(double margin_m, double start_gap_m) {
 void RoutePlannerConfig::Describe(Archive& a) {
   a.Number("easy_margin_m", easy_margin_m, {"m", 0, 2, "preferred clearance of a route to everything"});
   a.Number("least_margin_m", least_margin_m, {"m", 0, 1, "clearance where there is no such route"});
-  a.Number("turn_m", turn_m, {"m", 0, 10, "what turning by 22.5 degrees costs"});
-  a.Number("sideways", sideways, {"-", 0, 10, "driving backwards costs so much more, sideways half of it"});
+  a.Number("turn_m", costs.turn_m, {"m", 0, 10, "what turning by 22.5 degrees costs"});
+  a.Number("sideways", costs.sideways,
+           {"-", 0, 10, "driving backwards costs so much more, sideways half of it"});
   a.Integer("most_poses", most_poses,
             {"-", 0, 100000000, "poses that a search looks at, for either; 0: all"});
   if (least_margin_m > easy_margin_m) a.Refuse("least_margin_m", "at most easy_margin_m");
@@ -159,8 +160,7 @@ std::optional<PlannedPath> RoutePlanner::FindPath(const Pose2& map_from_start, c
                                           .turn = goal.turn,
                                           .margin_m = margin_m,
                                           .leaving_m = LeavingMargin(margin_m, start_gap_m),
-                                          .turn_m = config_.turn_m,
-                                          .sideways = config_.sideways,
+                                          .costs = config_.costs,
                                           .most_poses = config_.most_poses});
   if (!route) return std::nullopt;
   // Lines that had to keep as much as the lattice would have a corner wherever that is all there is.

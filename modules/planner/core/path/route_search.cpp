@@ -96,7 +96,7 @@ class Search {
     const double turn_rad = std::abs(WrapAngle(pose.yaw - query_.start.yaw));
     if (distance_m > kFirst_m || turn_rad > 1.01 * kTurn_rad) return;
     if (!space_.IsFree(query_.start, pose, std::min(query_.leaving_m, query_.margin_m))) return;
-    Reach(node, distance_m + turn_rad / kTurn_rad * query_.turn_m, kStart);
+    Reach(node, distance_m + turn_rad / kTurn_rad * query_.costs.turn_m, kStart);
   }
 
   void Reach(const Node& node, double cost, std::size_t from) {
@@ -114,8 +114,8 @@ class Search {
     const Pose2 here = PoseOf(node);
     for (const int turn : {-1, 1}) {
       const Node next{node.x, node.y, (node.heading + turn + kHeadings) % kHeadings};
-      if (IsBetter(next, cost_[index] + query_.turn_m) && TurnIsFree(index, here, next))
-        Reach(next, cost_[index] + query_.turn_m, index);
+      if (IsBetter(next, cost_[index] + query_.costs.turn_m) && TurnIsFree(index, here, next))
+        Reach(next, cost_[index] + query_.costs.turn_m, index);
     }
     for (const auto& [dx, dy] : kMoves) {
       const Node next{node.x + dx, node.y + dy, node.heading};
@@ -123,7 +123,7 @@ class Search {
       const double ahead = std::cos(std::atan2(dy, dx) - here.yaw),
                    length_m = std::hypot(dx, dy) * DistanceField::kStep_m;
       const double cost =
-          cost_[index] + length_m * (1 + query_.sideways * (1 - ahead) / 2) * NearWall(next.x, next.y);
+          cost_[index] + length_m * (1 + query_.costs.sideways * (1 - ahead) / 2) * NearWall(next.x, next.y);
       if (IsBetter(next, cost) && MoveIsFree(index, here, next, length_m)) Reach(next, cost, index);
     }
   }
