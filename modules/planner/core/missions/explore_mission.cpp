@@ -21,8 +21,9 @@ constexpr double kSamePlace_m = 0.3, kBack_m = 1.5, kShutIn_m = 1.0;
 /// before the border is given up; one that is farther away only after more stops.
 constexpr double kAtTarget_m = 2.5;
 constexpr int kMostStopsAtTarget = 1, kMostStopsHere = 3;
-/// Who drives less has stayed where it was.
-constexpr double kMovesAtLeast_m = 0.3;
+/// Who comes no farther has stayed where it was, or, with frontiers left, in a place that is closed all
+/// around.
+constexpr double kMovesAtLeast_m = 0.3, kLeavesAtLeast_m = 1.5;
 /// A round that saw no more than so much more has seen nothing.
 constexpr double kMore_m2 = 1.0;
 /// Frontiers that the outcome names; a result holds no more words.
@@ -355,10 +356,12 @@ std::string ExploreMission::Left() const {
 
 /// Why what was seen is no exploration; empty: it is one.
 std::string ExploreMission::WhyNothing(const Pose2& base) const {
-  if (exploration_.driven_m() < kMovesAtLeast_m) return "the base has not moved";
-  const bool stuck =
-      stopped_at_ && stops_here_ > 0 && (base.translation() - *stopped_at_).norm() < kSamePlace_m;
-  return !exploration_.left().empty() && (stuck || IsShutIn(base)) ? "the base is shut in" : "";
+  const double reached_m = exploration_.reached_m();
+  if (reached_m < kMovesAtLeast_m) return "the base has not moved";
+  if (exploration_.left().empty()) return "";
+  if (reached_m < kLeavesAtLeast_m) return "the base has not left where it began";
+  const bool here = stopped_at_ && (base.translation() - *stopped_at_).norm() < kSamePlace_m;
+  return here && stops_here_ > 0 ? "the base is shut in" : "";
 }
 
 void ExploreMission::Finish(MissionControl& control) {
@@ -370,8 +373,7 @@ void ExploreMission::Finish(MissionControl& control) {
     outcome_ = {Phase::kDone, seen};
   else
     outcome_ = {Phase::kFailed,
-                fmt::format("{}: nothing is reached from where it stands; {}; next: look what "
-                            "is around it, forget the map, and order it again",
+                fmt::format("{}: nothing more is reached; next: see what is around it, priamos map reset; {}",
                             nothing, seen)};
   LearnedWalls made = exploration_.walls();
   made.objects = objects_.At(graph_);  // where the robot is told to be on the map, too

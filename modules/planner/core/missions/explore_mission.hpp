@@ -22,7 +22,8 @@ namespace priamos::planner {
 /// is free is known from where the base was and from the walls that it told, both put where the graph has
 /// them; what stops it is put on the map where it stands, for the length of the mission. A frontier that
 /// cannot be reached is left, with the reason; the outcome names the largest. A base that has not moved, or
-/// that is shut in before all is seen, has failed: what is around it may not be there.
+/// with frontiers left has not got away from where it began or cannot move any more, has failed: what is
+/// around it may not be there.
 class ExploreMission : public Mission {
  public:
   ExploreMission(const ExploreMissionConfig& config, const Footprint& footprint, const GroundPlan& plan);

@@ -42,7 +42,8 @@ std::vector<const FoundSegment*> SegmentFinder::Add(const SonarCycle& cycle, con
   last_base_ = odom_from_base;
   Forget(cycle.time);
   std::vector<const FoundSegment*> changed;
-  unexplained_ = Explain(NewEchoes(cycle, odom_from_base), cycle.time, changed);
+  heard_ = NewEchoes(cycle, odom_from_base);
+  unexplained_ = Explain(heard_, cycle.time, changed);
   for (const PlacedEcho& echo : unexplained_) waiting_.Add(echo, cycle.time);
   for (const PlacedEcho& echo : unexplained_) {
     if (const FoundSegment* found = Begin(echo, cycle.time)) {

@@ -48,7 +48,9 @@ class SegmentFinder {
   std::vector<const FoundSegment*> Add(const SonarCycle& cycle, const Pose2& odom_from_base);
   /// The segments that still may grow, oldest first.
   const std::deque<FoundSegment>& segments() const { return segments_; }
-  /// The echoes of the last cycle that no segment takes, if they tell anything new.
+  /// The echoes of the last cycle that tell anything new.
+  const std::vector<PlacedEcho>& heard() const { return heard_; }
+  /// Those of them that no segment takes.
   const std::vector<PlacedEcho>& unexplained() const { return unexplained_; }
   /// How far the base has driven [m].
   double travel_m() const { return travel_m_; }
@@ -71,7 +73,7 @@ class SegmentFinder {
   bool moved_before_ = false;
   double travel_m_ = 0;
   WaitingEchoes<LineVotes> waiting_;  ///< for a wall that explains them
-  std::vector<PlacedEcho> unexplained_;
+  std::vector<PlacedEcho> heard_, unexplained_;
   std::deque<FoundSegment> segments_;
   int last_number_ = 0;
 };

@@ -109,7 +109,7 @@ TEST(ExploreMissionTest, WhoIsShutInByTheMapHasExploredNothing) {
   s.dut.OnLearned(learned);
   s.Run(60);
   EXPECT_EQ(s.dut.state().phase, Phase::kFailed) << s.dut.state().text;
-  EXPECT_THAT(s.dut.state().text, StartsWith("the base has not moved: nothing is reached"));
+  EXPECT_THAT(s.dut.state().text, StartsWith("the base has not moved: nothing more is reached"));
 }
 
 TEST(ExploreMissionTest, WhoCannotMoveAnyMoreHasNotExploredTheFloor) {
@@ -118,7 +118,7 @@ TEST(ExploreMissionTest, WhoCannotMoveAnyMoreHasNotExploredTheFloor) {
   s.robot.blocked = true;
   s.robot.RunFor(400);
   EXPECT_EQ(s.dut.state().phase, Phase::kFailed) << s.dut.state().text;
-  EXPECT_THAT(s.dut.state().text, StartsWith("the base is shut in: nothing is reached"));
+  EXPECT_THAT(s.dut.state().text, StartsWith("the base is shut in: nothing more is reached"));
   EXPECT_THAT(s.dut.state().text, HasSubstr("frontiers left"));
 }
 
