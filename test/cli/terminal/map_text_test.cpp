@@ -38,7 +38,8 @@ TEST(PointTable, APointHasItsPlaceAndItsAge) {
     EXPECT_THAT(dut, testing::HasSubstr(words));
   learned.points.push_back({0, 0, 0.02, 990, 8});
   const std::string dots = MapDots({}, learned, {}, false);
-  EXPECT_THAT(dots, testing::HasSubstr("⠢")) << dots;
+  EXPECT_THAT(dots, testing::HasSubstr("⠗")) << dots;
+  EXPECT_THAT(dots, testing::HasSubstr("⠋")) << "the other, at the edge of the picture\n" << dots;
 }
 
 TEST(ObjectTable, AThingHasItsPlaceItsSizeAndItsAge) {

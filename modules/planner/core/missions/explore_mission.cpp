@@ -361,7 +361,7 @@ std::string ExploreMission::WhyNothing(const Pose2& base) const {
   if (exploration_.left().empty()) return "";
   if (reached_m < kLeavesAtLeast_m) return "the base has not left where it began";
   const bool here = stopped_at_ && (base.translation() - *stopped_at_).norm() < kSamePlace_m;
-  return here && stops_here_ > 0 ? "the base is shut in" : "";
+  return here && stops_here_ > kMostStopsHere ? "the base is shut in" : "";
 }
 
 void ExploreMission::Finish(MissionControl& control) {
