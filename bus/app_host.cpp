@@ -100,6 +100,7 @@ std::string AppHost::HealthText() const {
 
 void AppHost::PublishHealth(Time now) {
   next_health_ = now + kHealthPeriod;
+  context_.LogRefusalsLeftOut();
   const ChannelCounters totals = node_.Totals();
   health_t message{};
   message.utime = ToUtime(now);

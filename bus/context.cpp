@@ -20,6 +20,14 @@ std::unique_ptr<OtherBus> Context::OpenBus(const std::string& robot) {
   return around_.open_bus(robot);
 }
 
+void Context::LogRefusal(std::string_view channel, std::string_view text) {
+  if (const auto told = refusals_.Take(channel, text, node_.Now())) Log(Level::kWarning, *told);
+}
+
+void Context::LogRefusalsLeftOut() {
+  for (const std::string& told : refusals_.LeftOut(node_.Now())) Log(Level::kWarning, told);
+}
+
 void Context::SetHealth(Health health, std::string_view text) {
   health_ = health;
   health_text_ = text;

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "bus/node.hpp"
+#include "common/warning_limit.hpp"
 
 namespace priamos {
 class ByteStream;
@@ -58,6 +59,11 @@ class Context {
   /// Opens the offboard bus of another robot, for a process that joins several. Throws BusError.
   std::unique_ptr<OtherBus> OpenBus(const std::string& robot);
   void Log(Level level, std::string_view text) { around_.log(level, text); }
+  /// Warns that a message of a channel is not obeyed or not believed. Whoever is wrong is so at his rate: the
+  /// first of a channel is told at once, then one a second at most, with how many were left out.
+  void LogRefusal(std::string_view channel, std::string_view text);
+  /// Tells how many refusals were left out, where it is time; its host asks for it.
+  void LogRefusalsLeftOut();
 
   /// Sets the state that goes into the next HEALTH message; `text` gives the reason if it is not OK.
   void SetHealth(Health health, std::string_view text = "");
@@ -83,6 +89,7 @@ class Context {
   Health health_ = Health::kOk;
   std::string health_text_, health_name_;
   std::string status_;
+  WarningLimit refusals_;
   std::optional<int> exit_code_;
 };
 

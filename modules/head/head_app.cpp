@@ -178,7 +178,7 @@ void HeadApp::TakeMessages(Time now) {
     }
     orders_.push_back(FromMessage(message));
     if (orders_.size() <= kMaxOrders) continue;
-    context_.Log(bus::Level::kWarning, "too many look requests at once: the oldest is refused");
+    context_.LogRefusal(channels::kLookRequest.name, "too many look requests at once: the oldest is refused");
     EndGlance();
     Answer(NotFound(Verdict::kNoImage, now));
   }

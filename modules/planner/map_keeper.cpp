@@ -34,27 +34,28 @@ unsigned char Counted(std::int8_t value) {
 
 std::optional<SeenFeature> FromMessage(int store, const feature_t& m) {
   constexpr double kMap_m = 100, kYaw = 3.15, kLeast_m = 0.05;
-  const bool is_point = m.kind == feature_t::POINT;
+  const bool is_wall = m.kind == feature_t::WALL, is_point = m.kind == feature_t::POINT;
   const bool good = Within(store, 1, 65535) && Within(m.id, 0, 4095) &&
-                    (is_point || m.kind == feature_t::WALL || m.kind == feature_t::GONE) &&
-                    Within(m.x_m, -kMap_m, kMap_m) && Within(m.y_m, -kMap_m, kMap_m) &&
-                    Within(m.yaw_rad, -kYaw, kYaw) && Within(m.length_m, is_point ? 0 : kLeast_m, 6.35) &&
-                    Within(m.sigma_across_m, 0, 1.27) && Within(m.sigma_yaw_rad, 0, 0.255) &&
-                    Within(m.rho, -1, 1) && Within(m.sigma_end_m, 0, 0.6) && IsTime(m.utime_seen);
+                    (is_wall || is_point || m.kind == feature_t::GONE) && Within(m.x_m, -kMap_m, kMap_m) &&
+                    Within(m.y_m, -kMap_m, kMap_m) && Within(m.yaw_rad, -kYaw, kYaw) &&
+                    Within(m.length_m, is_wall ? kLeast_m : 0, 6.35) && Within(m.sigma_across_m, 0, 1.27) &&
+                    Within(m.sigma_yaw_rad, 0, 0.255) && Within(m.rho, -1, 1) &&
+                    Within(m.sigma_end_m, 0, 0.6) && IsTime(m.utime_seen);
   if (!good) return std::nullopt;
   const double seen_s = static_cast<double>(m.utime_seen) * 1e-6;
-  if (is_point) return SeenPoint{store, m.id, {m.x_m, m.y_m, m.sigma_across_m, seen_s}};
-  SeenWall seen{store, m.id, m.kind == feature_t::GONE, {}};
-  seen.wall.x_m = m.x_m;
-  seen.wall.y_m = m.y_m;
-  seen.wall.yaw_deg = Degrees(WrapAngle(m.yaw_rad));
-  seen.wall.length_m = m.length_m;
-  seen.wall.sigma_across_m = m.sigma_across_m;
-  seen.wall.sigma_yaw_deg = Degrees(m.sigma_yaw_rad);
-  seen.wall.rho = m.rho;
-  seen.wall.sigma_end_m = m.sigma_end_m;
-  seen.wall.seen_s = seen_s;
-  return seen;
+  if (is_point) return SeenFeature{store, m.id, LearnedPoint{m.x_m, m.y_m, m.sigma_across_m, seen_s}};
+  if (!is_wall) return SeenFeature{store, m.id};
+  LearnedWall wall;
+  wall.x_m = m.x_m;
+  wall.y_m = m.y_m;
+  wall.yaw_deg = Degrees(WrapAngle(m.yaw_rad));
+  wall.length_m = m.length_m;
+  wall.sigma_across_m = m.sigma_across_m;
+  wall.sigma_yaw_deg = Degrees(m.sigma_yaw_rad);
+  wall.rho = m.rho;
+  wall.sigma_end_m = m.sigma_end_m;
+  wall.seen_s = seen_s;
+  return SeenFeature{store, m.id, wall};
 }
 
 std::optional<LearnedDoor> FromMessage(const door_found_t& m) {
@@ -144,7 +145,7 @@ MapKeeper::~MapKeeper() {
 
 std::shared_ptr<const LearnedWalls> MapKeeper::Tick(Time now) {
   // Who begins with nothing asks for all that the robot has found so far.
-  if (!greeted_ && map_.walls().walls.empty()) acks_.Publish(features_ack_t{});
+  if (!greeted_ && map_.walls().walls.empty() && map_.walls().points.empty()) acks_.Publish(features_ack_t{});
   greeted_ = true;
   const bool was_reset = TakeOrders(now);
   const bool new_walls = TakeFeatures(), new_doors = TakeDoors(), new_objects = TakeObjects();
@@ -162,12 +163,6 @@ void MapKeeper::Replace(LearnedWalls walls) {
   replaced_ = true;
 }
 
-bool MapKeeper::Take(const SeenFeature& seen) {
-  if (const auto* wall = std::get_if<SeenWall>(&seen)) return map_.Take(*wall);
-  map_.Take(std::get<SeenPoint>(seen));
-  return true;
-}
-
 bool MapKeeper::TakeFeatures() {
   bool changed = false;
   for (const features_t& message : features_.Drain()) {
@@ -177,12 +172,12 @@ bool MapKeeper::TakeFeatures() {
       good = good && seen;
       if (!seen) continue;
       told_.push_back(*seen);
-      changed = Take(*seen) || changed;
+      changed = map_.Take(*seen) || changed;
     }
     if (good) {
       acks_.Publish(batches_.Note(message.store, message.batch));
     } else {
-      context_.Log(bus::Level::kWarning, "features refused: numbers out of range");
+      context_.LogRefusal(channels::kFeatures.name, "features refused: numbers out of range");
     }
   }
   return changed;
@@ -192,7 +187,7 @@ bool MapKeeper::TakeDoors() {
   bool changed = false;
   for (const door_found_t& message : doors_.Drain()) {
     const auto told = FromMessage(message);
-    if (!told) context_.Log(bus::Level::kWarning, "a door refused: numbers out of range");
+    if (!told) context_.LogRefusal(channels::kDoorFound.name, "a door refused: numbers out of range");
     changed = (told && map_.Take(*told)) || changed;
   }
   return changed;
@@ -203,8 +198,8 @@ bool MapKeeper::TakeObjects() {
   for (const scene_object_t& message : objects_.Drain()) {
     const auto told = FromMessage(message);
     if (!told)
-      context_.Log(bus::Level::kWarning,
-                   fmt::format("thing {} of the head refused: numbers out of range", message.id));
+      context_.LogRefusal(channels::kSceneObject.name,
+                          fmt::format("thing {} of the head refused: numbers out of range", message.id));
     // The head goes on telling what it saw before the map was forgotten.
     changed = (told && told->seen_s > reset_s_ && map_.Take(*told)) || changed;
   }
@@ -215,13 +210,15 @@ bool MapKeeper::TakeOrders(Time now) {
   bool was_reset = false;
   for (const map_command_t& order : orders_.Drain()) {
     if (order.action != map_command_t::RESET) {
-      context_.Log(bus::Level::kWarning, fmt::format("map order {} refused: no such action", order.action));
+      context_.LogRefusal(channels::kMapCommand.name,
+                          fmt::format("map order {} refused: no such action", order.action));
       continue;
     }
     const LearnedWalls& known = map_.walls();
-    context_.Log(bus::Level::kInfo,
-                 fmt::format("the learned map is forgotten: {} walls, {} doors, {} things",
-                             known.walls.size(), known.doors.size(), known.objects.size()));
+    context_.Log(
+        bus::Level::kInfo,
+        fmt::format("the learned map is forgotten: {} walls, {} points, {} doors, {} things",
+                    known.walls.size(), known.points.size(), known.doors.size(), known.objects.size()));
     map_.Reset();
     reset_s_ = static_cast<double>(ToUtime(now)) * 1e-6;
     was_reset = true;

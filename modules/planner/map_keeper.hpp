@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "bus/context.hpp"
@@ -14,9 +13,6 @@
 #include "planner/planner_config.hpp"
 
 namespace priamos::planner {
-
-/// What a robot tells in a feature.
-using SeenFeature = std::variant<SeenWall, SeenPoint>;
 
 /// A feature as the map takes it; nullopt when a number is not finite or outside its range.
 std::optional<SeenFeature> FromMessage(int store, const feature_t& message);
@@ -56,7 +52,6 @@ class MapKeeper {
   std::shared_ptr<const LearnedWalls> walls() const { return std::make_shared<LearnedWalls>(map_.walls()); }
 
  private:
-  bool Take(const SeenFeature& seen);
   bool TakeFeatures();
   bool TakeDoors();
   bool TakeObjects();

@@ -41,8 +41,7 @@ PlannerApp::PlannerApp(const PlannerConfig& config, bus::Context& context, Missi
 void PlannerApp::Tick(Time now) {
   TakeReports(now);
   if (auto learned = map_.Tick(now)) missions_.OnLearned(std::move(learned));
-  for (const SeenFeature& feature : map_.TakeTold())
-    std::visit([this](const auto& seen) { missions_.OnTold(seen); }, feature);
+  for (SeenFeature& seen : map_.TakeTold()) missions_.OnTold(std::move(seen));
   TakeOrders(now);
   Send(agenda_.Tick(now), now);
   SendStatus(now);
@@ -70,7 +69,7 @@ void PlannerApp::Take(const mission_command_t& order, Time now) {
       return void(agenda_.Cancel(order.order_id));
     default:
       if (const auto refusal = agenda_.Take(OrderIn(order), now))
-        context_.Log(bus::Level::kWarning, "order refused: " + refusal->reason);
+        context_.LogRefusal(channels::kMissionCommand.name, "order refused: " + refusal->reason);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace priamos::robot {
 namespace {
@@ -12,10 +13,15 @@ constexpr int kStores = 65535;
 /// As far as feature_t goes.
 constexpr double kMostLength_m = 6.35, kMostSigma_m = 1.27, kMostSigma_rad = 0.255, kMostEnd_m = 0.6;
 
+std::int8_t KindOf(const Feature& feature) {
+  if (feature.gone) return feature_t::GONE;
+  return feature.IsPoint() ? feature_t::POINT : feature_t::WALL;
+}
+
 feature_t ToMessage(const Feature& feature) {
   feature_t message{};
   message.id = static_cast<std::int16_t>(feature.id);
-  message.kind = feature.IsPoint() ? feature_t::POINT : feature_t::WALL;
+  message.kind = KindOf(feature);
   message.utime_seen = ToUtime(feature.seen);
   message.x_m = feature.map_from_middle.x;
   message.y_m = feature.map_from_middle.y;
@@ -66,6 +72,7 @@ std::vector<const FoundSegment*> FeatureReporter::Hear(const SonarCycle& cycle, 
   for (const FoundSegment* found : changed) Store(now).Note(*found, BaseBy(localiser));
   for (const FoundPoint* found : points_.Add(finder_.unexplained(), cycle.time))
     Store(now).Note(*found, BaseBy(localiser));
+  for (const int number : points_.SeeThrough(finder_.heard())) Store(now).NoteGone(number);
   return changed;
 }
 

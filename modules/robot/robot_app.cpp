@@ -166,9 +166,10 @@ void RobotApp::TakeFloorLines(Time now) {
     const auto line = FromMessage(message);
     if (line && drive_.AddFloorLine(*line, localiser_.OdometryPoseAt(line->exposure), now)) continue;
     ++floor_lines_refused_;
-    context_.Log(bus::Level::kWarning,
-                 fmt::format("obstacle line refused, the {}. one: {}", floor_lines_refused_,
-                             line ? "too old, of a time to come, or repeated" : "numbers out of range"));
+    context_.LogRefusal(
+        channels::kObstacleLine.name,
+        fmt::format("obstacle line refused, the {}. one: {}", floor_lines_refused_,
+                    line ? "too old, of a time to come, or repeated" : "numbers out of range"));
   }
 }
 
@@ -191,8 +192,8 @@ void RobotApp::AnswerFixes(Time now) {
                                answer.fix.request_id, std::hypot(result.change.x, result.change.y),
                                Degrees(result.change.yaw), result.distance));
     } else {
-      context_.Log(bus::Level::kWarning,
-                   fmt::format("fix {} refused: {}", answer.fix.request_id, result.reason));
+      context_.LogRefusal(channels::kLandmarkFix.name,
+                          fmt::format("fix {} refused: {}", answer.fix.request_id, result.reason));
     }
     // A repeated message has had its answer.
     if (result.verdict != FixVerdict::kDouble) correction_.Publish(ToMessage(answer, now));
@@ -214,7 +215,7 @@ void RobotApp::TakePoseResets(Time now) {
 /// Obeys an order to set the pose. Returns its verdict, as in pose_correction_t, and the change of the pose.
 int RobotApp::SetPose(const pose_reset_t& order, Time now, Pose2& change) {
   const auto refuse = [&](int verdict, std::string_view why) {
-    context_.Log(bus::Level::kWarning, fmt::format("pose {} not set: {}", order.request_id, why));
+    context_.LogRefusal(channels::kPoseReset.name, fmt::format("pose {} not set: {}", order.request_id, why));
     return verdict;
   };
   const auto known = FromMessage(order);
@@ -245,7 +246,7 @@ void RobotApp::TakeEstops(Time now) {
     } else if (message.action == estop_t::REARM && !IsOlder(message.utime, config_.order_max_age_s, now)) {
       Rearm();
     } else {
-      context_.Log(bus::Level::kWarning, "re-arming refused: too old, or no such action");
+      context_.LogRefusal(channels::kEstop.name, "re-arming refused: too old, or no such action");
     }
   }
 }
@@ -268,7 +269,8 @@ void RobotApp::TakeLeaseRequests(Time now) {
   for (const lease_request_t& message : lease_requests_.Drain()) {
     const auto request = FromMessage(message);
     if (!request || IsOlder(message.utime, config_.order_max_age_s, now)) {
-      context_.Log(bus::Level::kWarning, "lease request refused: too old, or nobody that is known");
+      context_.LogRefusal(channels::kLeaseRequest.name,
+                          "lease request refused: too old, or nobody that is known");
       continue;
     }
     drive_.RequestLease(request->who, request->wish, now);
@@ -300,7 +302,7 @@ void RobotApp::TakePaths(Time now) {
       refusal = Refusal(drive_.SetPath(*path, now));
     }
     if (!refusal.empty())
-      context_.Log(bus::Level::kWarning, fmt::format("path {} refused: {}", message.path_id, refusal));
+      context_.LogRefusal(channels::kPath.name, fmt::format("path {} refused: {}", message.path_id, refusal));
   }
 }
 
@@ -308,7 +310,7 @@ void RobotApp::TakePlanWalls() {
   for (const plan_walls_t& message : plan_walls_.Drain()) {
     auto walls = FromMessage(message);
     if (!walls) {
-      context_.Log(bus::Level::kWarning, "walls of the plan refused: numbers out of range");
+      context_.LogRefusal(channels::kPlanWalls.name, "walls of the plan refused: numbers out of range");
       continue;
     }
     localiser_.SetPlan(std::move(*walls));

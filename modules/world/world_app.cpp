@@ -104,18 +104,18 @@ void WorldApp::ReportContest(const WheelReading& reading) {
 void WorldApp::TakeWheelCommands() {
   for (const auto& [arrival, command] : wheel_commands_.DrainWithArrival())
     if (!simulation_.CommandWheels(arrival, command.instance, FromMessage(command)))
-      context_.Log(bus::Level::kWarning, "wheel command refused: not a number");
+      context_.LogRefusal(channels::kWheelCommand.name, "wheel command refused: not a number");
 }
 
 void WorldApp::TakeCommands(Time now) {
   TakeWheelCommands();
   for (const auto& command : head_commands_.Drain())
     if (!simulation_.CommandHead(FromMessage(command)))
-      context_.Log(bus::Level::kWarning, "head command refused: not a number");
+      context_.LogRefusal(channels::kHeadCommand.name, "head command refused: not a number");
   for (const auto& trigger : triggers_.Drain())
     if (!simulation_.Trigger(now, trigger.frame_id, trigger.cameras))
-      context_.Log(bus::Level::kWarning,
-                   fmt::format("camera trigger {} refused: cameras busy", trigger.frame_id));
+      context_.LogRefusal(channels::kCameraTrigger.name,
+                          fmt::format("camera trigger {} refused: cameras busy", trigger.frame_id));
 }
 
 std::shared_ptr<void> HoldGraphics() {

@@ -69,6 +69,27 @@ class EchoApp {
   std::size_t received_ = 0;
 };
 
+/// Believes nothing for 2.5 s.
+struct NoConfig {
+  void Describe(Archive&) {}
+};
+
+class RefusingApp {
+ public:
+  static constexpr std::string_view kName = "refusing";
+  static constexpr std::string_view kSummary = "refuses";
+  using Config = NoConfig;
+  RefusingApp(const Config&, Context& context) : context_(context) {}
+  Duration TickPeriod() const { return std::chrono::milliseconds(20); }
+  void Tick(Time) {
+    if (ticks_++ < 125) context_.LogRefusal("POSE", "not believed");
+  }
+
+ private:
+  Context& context_;
+  int ticks_ = 0;
+};
+
 std::vector<std::string> RecordRun(std::uint64_t seed) {
   const Schema schema = OwnTypes();
   Lockstep dut(schema, {.seed = seed});
@@ -111,6 +132,20 @@ TEST(Lockstep, AppsTickAtTheirOwnPeriods) {
   dut.RunUntil(dut.now() + std::chrono::milliseconds(1999));
   EXPECT_EQ(poses, 100);
   EXPECT_EQ(healths, 2);
+}
+
+TEST(Lockstep, AFloodOfRefusalsIsToldOnceASecondAndCountedToItsEnd) {
+  const Schema schema = OwnTypes();
+  std::vector<std::string> told;
+  Lockstep dut(schema, {.log = [&](Time, std::string_view, Level level, std::string_view text) {
+                 EXPECT_EQ(level, Level::kWarning);
+                 told.emplace_back(text);
+               }});
+  dut.AddBus("a");
+  dut.AddApp(FactoryOf<RefusingApp>(), "a", {});
+  dut.RunUntil(dut.now() + std::chrono::seconds(6));
+  EXPECT_EQ(told, (std::vector<std::string>{"not believed", "not believed (POSE: 49 before it)",
+                                            "not believed (POSE: 49 before it)", "POSE: 24 more refused"}));
 }
 
 TEST(Lockstep, BusesAreSeparate) {

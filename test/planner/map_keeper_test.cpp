@@ -43,14 +43,12 @@ features_t Batch(int store, int batch, std::vector<feature_t> walls) {
 TEST(FeatureMessage, AWallIsWhatItSays) {
   const auto seen = FromMessage(9, Wall(4));
   ASSERT_TRUE(seen);
-  const auto* dut = std::get_if<SeenWall>(&*seen);
+  EXPECT_EQ(seen->name(), FeatureName(9, 4));
+  const LearnedWall* dut = seen->wall();
   ASSERT_TRUE(dut);
-  EXPECT_EQ(dut->store, 9);
-  EXPECT_EQ(dut->id, 4);
-  EXPECT_FALSE(dut->gone);
-  EXPECT_NEAR(dut->wall.yaw_deg, Degrees(1.5), 1e-9);
-  EXPECT_EQ(dut->wall.length_m, 1.5);
-  EXPECT_EQ(dut->wall.seen_s, 1000);
+  EXPECT_NEAR(dut->yaw_deg, Degrees(1.5), 1e-9);
+  EXPECT_EQ(dut->length_m, 1.5);
+  EXPECT_EQ(dut->seen_s, 1000);
 }
 
 TEST(FeatureMessage, APointIsOneWithoutLength) {
@@ -59,13 +57,23 @@ TEST(FeatureMessage, APointIsOneWithoutLength) {
   message.length_m = 0;
   const auto seen = FromMessage(9, message);
   ASSERT_TRUE(seen);
-  const auto* dut = std::get_if<SeenPoint>(&*seen);
+  EXPECT_EQ(seen->name(), FeatureName(9, 4));
+  const LearnedPoint* dut = seen->point();
   ASSERT_TRUE(dut);
-  EXPECT_EQ(dut->id, 4);
-  EXPECT_EQ(dut->point.at(), Eigen::Vector2d(message.x_m, message.y_m));
-  EXPECT_EQ(dut->point.sigma_m, message.sigma_across_m);
+  EXPECT_EQ(dut->at(), Eigen::Vector2d(message.x_m, message.y_m));
+  EXPECT_EQ(dut->sigma_m, message.sigma_across_m);
   message.x_m = 1e9;
   EXPECT_FALSE(FromMessage(9, message));
+}
+
+TEST(FeatureMessage, WhatHasGoneHasNoKindAndNeedsNoLength) {
+  feature_t message = Wall(4);
+  message.kind = feature_t::GONE;
+  ASSERT_TRUE(FromMessage(9, message));
+  EXPECT_TRUE(FromMessage(9, message)->gone());
+  message.length_m = 0;
+  ASSERT_TRUE(FromMessage(9, message)) << "it was a point";
+  EXPECT_EQ(FromMessage(9, message)->name(), FeatureName(9, 4));
 }
 
 TEST(FeatureMessage, NumbersOutOfRangeAreNoWall) {
@@ -238,6 +246,21 @@ TEST_F(MapKeeperTest, WhatIsToldIsAcknowledgedAndWritten) {
   EXPECT_THAT(LoadLearnedWalls(file_).walls, SizeIs(2));
 }
 
+TEST_F(MapKeeperTest, APointThatHasGoneIsTakenOffTheFile) {
+  Begin();
+  feature_t point = Wall(3);
+  point.kind = feature_t::POINT;
+  point.length_m = 0;
+  features_->Publish(Batch(9, 5, {point}));
+  station_->Run(40);
+  ASSERT_THAT(LoadLearnedWalls(file_).points, SizeIs(1));
+  EXPECT_EQ(LoadLearnedWalls(file_).points[0].id, 1);
+  point.kind = feature_t::GONE;
+  features_->Publish(Batch(9, 6, {point}));
+  station_->Run(400);
+  EXPECT_THAT(LoadLearnedWalls(file_).points, IsEmpty());
+}
+
 TEST_F(MapKeeperTest, AnotherPlannerGoesOnWithIt) {
   Begin();
   features_->Publish(Batch(9, 5, {Wall(1)}));
@@ -303,7 +326,7 @@ TEST_F(MapKeeperTest, ThingsAreWrittenAndForgottenWithTheRest) {
   orders_->Publish(order);
   station_->Run(2);
   EXPECT_THAT(LoadLearnedWalls(file_).objects, IsEmpty());
-  EXPECT_THAT(station_->log, testing::Contains(testing::HasSubstr("0 walls, 0 doors, 1 things")));
+  EXPECT_THAT(station_->log, testing::Contains(testing::HasSubstr("0 walls, 0 points, 0 doors, 1 things")));
   objects.Publish(Thing());
   station_->Run(40);
   EXPECT_THAT(LoadLearnedWalls(file_).objects, IsEmpty()) << "it was seen before all was forgotten";

@@ -18,8 +18,6 @@
 
 namespace {
 
-constexpr int kCannotStart = 2;
-
 int Estop(int argc, char** argv) {
   int exit_code = 0;
   CLI::App cli("PRIAMOS", "priamos");
@@ -48,5 +46,5 @@ int main(int argc, char** argv) {
   execv(verbs.c_str(), argv);
   std::cerr << "priamos: " << verbs
             << ": expected the program of the other verbs, got: " << std::strerror(errno) << "\n";
-  return kCannotStart;
+  return priamos::cli::kCannotStart;
 }

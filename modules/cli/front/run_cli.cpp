@@ -11,7 +11,6 @@
 namespace priamos::cli {
 
 int RunCli(CLI::App& cli, int argc, char** argv, const int& exit_code) {
-  constexpr int kCannotStart = 2;
   StandardOutput output;
   const auto name = [&cli] { return bus::FullName(bus::ChosenVerb(cli)); };
   try {

@@ -1,5 +1,7 @@
 #include "cli/report/report_explore.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
@@ -151,6 +153,16 @@ std::optional<ExploreSummary> ExploreSummaryOf(const RunRecord& record, const Ru
   summary.wall_m = kSample_m * double(places.size());
   summary.wall_error_p95_m = ErrorAfterFit(OutlinesAt(info.world, kRing_m, kRing_m), std::move(places));
   return summary;
+}
+
+std::string SeenText(const ExploreSummary& explore) {
+  return fmt::format("seen {:.1f} % of {:.1f} m2", 100 * explore.seen, explore.reachable_m2);
+}
+
+std::string FaultOf(const ExploreSummary& explore, double least_seen) {
+  if (explore.seen >= least_seen) return "";
+  return fmt::format("{} that can be reached, {:.1f} % are asked; {}", SeenText(explore), 100 * least_seen,
+                     explore.end);
 }
 
 }  // namespace priamos::cli

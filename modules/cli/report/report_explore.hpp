@@ -26,4 +26,11 @@ struct ExploreSummary {
 /// Summary of an exploration; nullopt when none was ordered.
 std::optional<ExploreSummary> ExploreSummaryOf(const RunRecord& record, const RunInfo& info);
 
+/// `seen 99.2 % of 35.8 m2`.
+std::string SeenText(const ExploreSummary& explore);
+
+/// Why an exploration that came to its end has not passed, in words; empty if it has. `least_seen` as in
+/// Scenario.
+std::string FaultOf(const ExploreSummary& explore, double least_seen);
+
 }  // namespace priamos::cli

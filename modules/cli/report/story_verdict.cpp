@@ -4,7 +4,9 @@ namespace priamos::cli {
 
 std::string Judge(const Scenario& scenario, const ScenarioStory& story, Summary& summary) {
   if (!story.DecidesTheRun()) return story.Reason();
-  const std::string fault = summary.hand ? FaultOf(*summary.hand, scenario.longest_stop_s) : "";
+  std::string fault;
+  if (summary.hand) fault = FaultOf(*summary.hand, scenario.longest_stop_s);
+  if (fault.empty() && summary.explore) fault = FaultOf(*summary.explore, scenario.least_seen);
   summary.passed = story.Succeeded() && fault.empty();
   return story.Succeeded() && !fault.empty() ? fault : story.Reason();
 }

@@ -8,8 +8,9 @@
 
 namespace priamos::cli {
 
-/// Completes `summary.passed` with what the record alone does not show: a drive by hand passes when its story
-/// came to a good end and the robot did nothing that the scenario forbids. Returns why it has not passed; the
+/// Completes `summary.passed` with what the record alone does not show: a drive by hand, or
+/// an exploration, passes when its story came to a good end and it did nothing that the scenario forbids, and
+/// saw as much as that asks. Returns why it has not passed; the
 /// story's last line when it has.
 std::string Judge(const Scenario& scenario, const ScenarioStory& story, Summary& summary);
 

@@ -7,7 +7,7 @@
 namespace priamos::cli {
 
 /// The person at the workstation has the robot explore a floor of which there is no plan. It has come to a
-/// good end when the planner reports it; how much of the floor was seen is judged by the report.
+/// good end when the planner reports it; how much of the floor was seen is judged by the verdict of the run.
 class ExploreStory : public OrderStory {
  public:
   static constexpr std::string_view kName = "explore";

@@ -68,6 +68,8 @@ void Scenario::Describe(Archive& a) {
            {"deg", 0, 90, "error of the direction in which he pushes, one sigma; above 0 he also pauses"});
   a.Number("longest_stop_s", longest_stop_s,
            {"s", 0, 1000, "not passed when the base stands in the passage for longer while pushed; 0: any"});
+  a.Number("least_seen", least_seen,
+           {"-", 0, 1, "not passed when an exploration sees less of the floor that it can reach; 0: any"});
   a.Number("shake_s", shake_s, {"s", 1, 100000, "how long he shakes it"});
   // What has a heading in TOML comes last: single values after it would belong to it.
   a.Section("line", line, "the serial line between the two radios");

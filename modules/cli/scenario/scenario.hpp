@@ -67,6 +67,7 @@ struct Scenario {
   double shake_s = 60;
   double astray_deg = 0;      ///< error of the direction in which he pushes, one sigma; 0: exact
   double longest_stop_s = 0;  ///< longest stop of the base in the passage; 0: any
+  double least_seen = 0.98;   ///< share of the reachable floor that an exploration has to see; 0: any
 
   void Describe(Archive& a);
 };

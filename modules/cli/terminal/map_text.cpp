@@ -34,6 +34,11 @@ class Dots {
   void Line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, Braille::Ink ink) {
     picture_.Line(X(from), Y(from), X(to), Y(to), ink);
   }
+  /// A cross of five dots.
+  void Cross(const Eigen::Vector2d& at, Braille::Ink ink) {
+    picture_.Line(X(at) - 1, Y(at), X(at) + 1, Y(at), ink);
+    picture_.Line(X(at), Y(at) - 1, X(at), Y(at) + 1, ink);
+  }
   std::string Text(bool colour) const { return picture_.Text(colour); }
 
  private:
@@ -54,6 +59,7 @@ std::string MapDots(const GroundPlan& plan, const LearnedWalls& learned, ScreenS
   Eigen::AlignedBox2d box;
   for (const WallPlan& wall : plan.walls) box.extend(wall.from()).extend(wall.to());
   for (const LearnedWall& wall : learned.walls) box.extend(wall.from()).extend(wall.to());
+  for (const LearnedPoint& point : learned.points) box.extend(point.at());
   for (const LearnedDoor& door : learned.doors) box.extend(Eigen::Vector2d(door.x_m, door.y_m));
   for (const LearnedObject& object : learned.objects)
     for (const Eigen::Vector2d& corner : object.Footprint().Corners()) box.extend(corner);
@@ -61,6 +67,7 @@ std::string MapDots(const GroundPlan& plan, const LearnedWalls& learned, ScreenS
   Dots dots(box, size);
   for (const WallPlan& wall : plan.walls) dots.Line(wall.from(), wall.to(), Braille::kDim);
   for (const LearnedWall& wall : learned.walls) dots.Line(wall.from(), wall.to(), Braille::kGreen);
+  for (const LearnedPoint& point : learned.points) dots.Cross(point.at(), Braille::kGreen);
   for (const LearnedDoor& door : learned.doors) {
     const Pose2 at = door.map_from_door();
     dots.Line(at * Eigen::Vector2d(0, -door.width_m / 2), at * Eigen::Vector2d(0, door.width_m / 2),
@@ -91,6 +98,14 @@ std::string ObjectTable(const LearnedWalls& learned, double now_s, std::optional
                fmt::format("{:.2f} m", object.top_m), fmt::format("±{:.1f} cm", 100 * object.sigma_along_m),
                fmt::format("±{:.1f} cm", 100 * object.sigma_across_m), fmt::format("{}x", object.looks),
                Ago(now_s - object.seen_s)});
+  return size ? table.Render(*size) : table.Render();
+}
+
+std::string PointTable(const LearnedWalls& learned, double now_s, std::optional<ScreenSize> size) {
+  TextTable table({{"", 10, true}, {"place", 8, true}, {"known to", 6}, {"heard ago", 4}});
+  for (const LearnedPoint& point : learned.points)
+    table.Add({fmt::format("point {}", point.id), fmt::format("({:.2f}, {:.2f})", point.x_m, point.y_m),
+               fmt::format("±{:.1f} cm", 100 * point.sigma_m), Ago(now_s - point.seen_s)});
   return size ? table.Render(*size) : table.Render();
 }
 

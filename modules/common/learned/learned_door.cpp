@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "common/learned/required_place.hpp"
+
 namespace priamos {
 
 void LearnedDoor::Describe(Archive& a) {
@@ -17,6 +19,7 @@ void LearnedDoor::Describe(Archive& a) {
   a.Number("changed_s", changed_s, {"s", 0, 1e11, "since 1970, when another state was seen; 0: never"});
   a.Number("seen_s", seen_s, {"s", 0, 1e11, "since 1970, when it was seen last"});
   a.Integer("looks", looks, {"-", 1, 1e9, "how many showed it"});
+  RequirePlace(a, "the number of the door");
 }
 
 const DoorPlan* DoorOnPlan(const LearnedDoor& door, const GroundPlan& plan) {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "common/learned/required_place.hpp"
+
 namespace priamos {
 namespace {
 
@@ -27,6 +29,7 @@ void LearnedObject::Describe(Archive& a) {
   a.Number("sigma_yaw_deg", sigma_yaw_deg, {"deg", 0, 180, "standard deviation of its direction"});
   a.Number("seen_s", seen_s, {"s", 0, 1e11, "since 1970, when it was seen last"});
   a.Integer("looks", looks, {"-", 1, 1e9, "how many showed it"});
+  RequirePlace(a, "the number of the thing");
 }
 
 Rectangle LearnedObject::Footprint() const {

@@ -13,6 +13,7 @@ struct LearnedPoint {
   double x_m = 0, y_m = 0;  ///< map
   double sigma_m = 0;       ///< standard deviation of the place, in any direction at most
   double seen_s = 0;        ///< since 1970, when it was heard last
+  int id = 0;
 
   void Describe(Archive& a);
   Eigen::Vector2d at() const { return {x_m, y_m}; }
@@ -20,9 +21,12 @@ struct LearnedPoint {
 
 /// As many are kept.
 inline constexpr std::size_t kMostPoints = 1000;
+/// Points nearer to each other are one.
+inline constexpr double kSamePoint_m = 0.2;
 
-/// Enters what a robot tells of a point, or replaces the nearest one, up to 20 cm away. Of more than
-/// kMostPoints that goes which was not heard for longest.
-void EnterPoint(const LearnedPoint& told, std::vector<LearnedPoint>& points);
+/// Enters what a robot tells of a point: it replaces the nearest one that is the same by its place, and has
+/// its number, or is one more. `told.id` is ignored. Of more than kMostPoints that goes which was not heard
+/// for longest. Returns the point's number.
+int EnterPoint(const LearnedPoint& told, std::vector<LearnedPoint>& points);
 
 }  // namespace priamos

@@ -8,6 +8,7 @@
 
 #include "common/config.hpp"
 #include "common/config_printer.hpp"
+#include "common/learned/required_place.hpp"
 #include "common/replace_file.hpp"
 
 namespace priamos {
@@ -15,6 +16,13 @@ namespace {
 
 constexpr int kMostWalls = 100000;
 constexpr unsigned kMode = 0644;
+
+template <class T>
+void RefuseTwice(Archive& a, std::string_view key, const std::vector<T>& all, std::string_view expected) {
+  std::set<int> ids;
+  for (const T& one : all)
+    if (!ids.insert(one.id).second) a.Refuse(key, expected);
+}
 
 }  // namespace
 
@@ -30,6 +38,7 @@ void LearnedWall::Describe(Archive& a) {
   a.Number("sigma_end_m", sigma_end_m, {"m", 0, 100, "standard deviation of both ends, along it"});
   a.Number("seen_s", seen_s, {"s", 0, 1e11, "since 1970, when it was heard last"});
   a.Integer("sightings", sightings, {"-", 1, 1e9, "how often a robot told of it"});
+  RequirePlace(a, "the number of the wall");
 }
 
 Eigen::Matrix2d LearnedWall::covariance() const {
@@ -54,18 +63,13 @@ void LearnedWalls::Describe(Archive& a) {
   a.Integer("version", version, {"-", kVersion, kVersion, "of this file's form"});
   a.Integer("revision", revision, {"-", 0, 2e9, "counts the changes"});
   a.List("walls", walls, "straight pieces of wall");
-  std::set<int> ids;
-  for (const LearnedWall& wall : walls)
-    if (!ids.insert(wall.id).second) a.Refuse("walls", "every wall with its own id");
+  RefuseTwice(a, "walls", walls, "every wall with its own id");
   a.List("doors", doors, "doors that were seen");
-  std::set<int> door_ids;
-  for (const LearnedDoor& door : doors)
-    if (!door_ids.insert(door.id).second) a.Refuse("doors", "every door with its own id");
+  RefuseTwice(a, "doors", doors, "every door with its own id");
   a.List("objects", objects, "things that stand on the floor");
-  std::set<int> object_ids;
-  for (const LearnedObject& object : objects)
-    if (!object_ids.insert(object.id).second) a.Refuse("objects", "every thing with its own id");
+  RefuseTwice(a, "objects", objects, "every thing with its own id");
   a.List("points", points, "places that echo to all sides");
+  RefuseTwice(a, "points", points, "every point with its own id");
   if (points.size() > kMostPoints) a.Refuse("points", "at most 1000 of them");
   if (objects.size() > kMostObjects) a.Refuse("objects", "at most 300 of them");
   if (doors.size() > static_cast<std::size_t>(kMostWalls)) a.Refuse("doors", "at most 100000 of them");

@@ -59,5 +59,26 @@ TEST(StoryVerdict, AStopInThePassageIsAFaultOfADriveThatSucceeded) {
   EXPECT_FALSE(failed.passed);
 }
 
+TEST(StoryVerdict, AnExplorationThatSawTooLittleHasNotPassed) {
+  Summary summary;
+  summary.explore.emplace();
+  summary.explore->seen = 0.977;
+  summary.explore->reachable_m2 = 36;
+  summary.explore->end = "explored 35 m2";
+  const std::string fault = Judge({}, Ended(true, true), summary);
+  EXPECT_FALSE(summary.passed);
+  EXPECT_EQ(fault, "seen 97.7 % of 36.0 m2 that can be reached, 98.0 % are asked; explored 35 m2");
+  summary.explore->seen = 0.98;
+  EXPECT_EQ(Judge({}, Ended(true, true), summary), "last words");
+  EXPECT_TRUE(summary.passed);
+  summary.explore->seen = 0.2;
+  Scenario any;
+  any.least_seen = 0;
+  Judge(any, Ended(true, true), summary);
+  EXPECT_TRUE(summary.passed);
+  EXPECT_EQ(Judge({}, Ended(true, false), summary), "last words") << "its own reason comes first";
+  EXPECT_FALSE(summary.passed);
+}
+
 }  // namespace
 }  // namespace priamos::cli

@@ -97,6 +97,7 @@ TEST(ScenarioFile, ValuesOutsideTheirBoundsAreRefusedWithLineAndKey) {
       {"astray_deg = 91\n", "walk.toml:1:astray_deg"},
       {"shake_s = 0\n", "walk.toml:1:shake_s"},
       {"longest_stop_s = -1\n", "longest_stop_s"},
+      {"least_seen = 1.1\n", "least_seen"},
       {"[[process]]\nmodule = \"wheels\"\n", "module"},
       {"[[process]]\nbus = \"yellow\"\n", "bus"},
       {"[[process]]\nwatchdog_s = 0.4\n", "watchdog_s"},

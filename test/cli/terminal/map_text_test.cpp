@@ -30,6 +30,18 @@ TEST(DoorTable, ADoorHasItsNameItsStateAndItsAge) {
   EXPECT_THAT(DoorTable(plan, learned, 1000, std::nullopt), testing::HasSubstr("door 'office'"));
 }
 
+TEST(PointTable, APointHasItsPlaceAndItsAge) {
+  LearnedWalls learned;
+  learned.points = {{6, 1.1, 0.013, 990, 7}};
+  const std::string dut = PointTable(learned, 1000, std::nullopt);
+  for (const char* words : {"point 7", "(6.00, 1.10)", "±1.3 cm", "10 s"})
+    EXPECT_THAT(dut, testing::HasSubstr(words));
+  learned.points.push_back({0, 0, 0.02, 990, 8});
+  const std::string dots = MapDots({}, learned, {}, false);
+  EXPECT_THAT(dots, testing::HasSubstr("⠗")) << dots;
+  EXPECT_THAT(dots, testing::HasSubstr("⠋")) << "the other, at the edge of the picture\n" << dots;
+}
+
 TEST(ObjectTable, AThingHasItsPlaceItsSizeAndItsAge) {
   LearnedWalls learned;
   LearnedObject box;

@@ -108,7 +108,7 @@ TEST_F(LearnedWallsTest, ThingsAreKept) {
 }
 
 TEST_F(LearnedWallsTest, AFileFromBeforeThereWereThingsIsRead) {
-  std::ofstream(file_) << "version = 1\nrevision = 4\n[[walls]]\nid = 1\nx_m = 2\n";
+  std::ofstream(file_) << "version = 1\nrevision = 4\n[[walls]]\nid = 1\nx_m = 2\ny_m = 1\n";
   const LearnedWalls dut = LoadLearnedWalls(file_);
   EXPECT_EQ(dut.walls.size(), 1u);
   EXPECT_TRUE(dut.objects.empty());
@@ -128,9 +128,16 @@ TEST_F(LearnedWallsTest, DamagedFilesAreRefusedWithTheirLine) {
   EXPECT_THAT(Refused("version = 1\nwall = 3\n"), HasSubstr("learned-map.toml:2:"));
   EXPECT_THAT(Refused("version = 1\n[[walls]]\nid = 1\nx_m = nan\n"),
               HasSubstr("learned-map.toml:4:walls[0].x_m"));
-  EXPECT_THAT(Refused("version = 1\n[[walls]]\nid = 1\n[[walls]]\nid = 1\n"), HasSubstr("its own id"));
-  EXPECT_THAT(Refused("version = 1\n[[objects]]\nid = 1\n[[objects]]\nid = 1\n"),
-              HasSubstr("every thing with its own id"));
+  for (const std::string list : {"walls", "doors", "objects", "points"}) {
+    const std::string one = "[[" + list + "]]\nid = 1\nx_m = 0\ny_m = 0\n";
+    EXPECT_THAT(Refused("version = 1\n" + one + one), HasSubstr("with its own id")) << list;
+    const std::string key = "learned-map.toml:2:" + list + "[0].";
+    EXPECT_THAT(Refused("version = 1\n[[" + list + "]]\n"), HasSubstr(key + "id: expected the number of"));
+    EXPECT_THAT(Refused("version = 1\n[[" + list + "]]\nid = 1\nx_m = 2\n"),
+                HasSubstr(key + "y_m: expected a place, x_m and y_m, got none"));
+  }
+  EXPECT_THAT(Refused("version = 1\n[[points]]\nid = 1\nx_m = 201\n"),
+              HasSubstr("learned-map.toml:4:points[0].x_m: expected"));
   EXPECT_THAT(Refused("version = 1\n[[objects]]\nid = 1\nkind = \"tree\"\n"),
               HasSubstr("learned-map.toml:4:objects[0].kind"));
   EXPECT_THAT(Refused("version = "), HasSubstr("learned-map.toml:1"));

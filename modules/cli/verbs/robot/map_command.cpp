@@ -92,6 +92,13 @@ nlohmann::ordered_json ToJson(const LearnedWall& wall) {
           {"sightings", wall.sightings}};
 }
 
+nlohmann::ordered_json ToJson(const LearnedPoint& point) {
+  return {{"id", point.id},
+          {"at_m", {point.x_m, point.y_m}},
+          {"sigma_m", point.sigma_m},
+          {"seen_s", point.seen_s}};
+}
+
 nlohmann::ordered_json ToJson(const LearnedDoor& door, const GroundPlan& plan) {
   const DoorPlan* drawn = DoorOnPlan(door, plan);
   return {{"id", door.id},
@@ -127,6 +134,8 @@ void PrintJson(const Maps& maps) {
   nlohmann::ordered_json json{{"file", maps.file}, {"revision", maps.learned.revision}};
   json["walls"] = nlohmann::ordered_json::array();
   for (const LearnedWall& wall : maps.learned.walls) json["walls"].push_back(ToJson(wall));
+  json["points"] = nlohmann::ordered_json::array();
+  for (const LearnedPoint& point : maps.learned.points) json["points"].push_back(ToJson(point));
   json["gaps"] = nlohmann::ordered_json::array();
   for (const WallGap& gap : GapsOf(maps.learned))
     json["gaps"].push_back({{"walls", {gap.before, gap.behind}},
@@ -141,7 +150,7 @@ void PrintJson(const Maps& maps) {
 }
 
 bool IsEmpty(const LearnedWalls& learned) {
-  return learned.walls.empty() && learned.doors.empty() && learned.objects.empty();
+  return learned.walls.empty() && learned.points.empty() && learned.doors.empty() && learned.objects.empty();
 }
 
 void Print(const Maps& maps) {
@@ -152,6 +161,7 @@ void Print(const Maps& maps) {
   const double now_s =
       std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
   if (!maps.learned.walls.empty()) std::cout << MapTable(maps.learned, now_s, size);
+  if (!maps.learned.points.empty()) std::cout << PointTable(maps.learned, now_s, size);
   if (!maps.learned.doors.empty()) std::cout << DoorTable(maps.plan, maps.learned, now_s, size);
   if (!maps.learned.objects.empty()) std::cout << ObjectTable(maps.learned, now_s, size);
 }

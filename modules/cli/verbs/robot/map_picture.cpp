@@ -15,7 +15,7 @@ using drawing::Box, drawing::Drawing, drawing::Layer, drawing::Symbol;
 using Eigen::Vector2d;
 
 constexpr double kMapWidth = 1200, kMapMargin = 36, kMapInner = kMapWidth - 2 * kMapMargin, kTallest = 1600;
-constexpr double kAround_m = 0.5;
+constexpr double kAround_m = 0.5, kPoint_px = 7;
 
 constexpr Layer kLearned{"learned-wall", "wall (learned)", {.line = colours::kFix, .width = 5}};
 constexpr Layer kLearnedSigma{"learned-sigma",
@@ -30,17 +30,25 @@ constexpr Layer kSeen{"seen-thing",
                       {.line = colours::kThing, .width = 2, .fill = colours::kThing, .opacity = 0.25},
                       Symbol::kArea};
 constexpr Layer kEdge{"seen-edge", "edge that the head saw", {.fill = colours::kThing}, Symbol::kDot};
+constexpr Layer kPoint{
+    "learned-point", "inner corner or edge (learned)", {.line = colours::kFix, .width = 3}, Symbol::kCross};
 constexpr Layer kCorner{"corner", "corner of learned walls", {.fill = colours::kFix}, Symbol::kDot};
 
 Extent ExtentOfBoth(const GroundPlan& plan, const LearnedWalls& learned) {
   Extent extent = ExtentOf(plan);
   if (plan.walls.empty() && !learned.walls.empty())
     extent = {learned.walls.front().from(), learned.walls.front().from()};
+  else if (plan.walls.empty() && !learned.points.empty())
+    extent = {learned.points.front().at(), learned.points.front().at()};
   for (const LearnedWall& wall : learned.walls) {
     for (const Vector2d& end : {wall.from(), wall.to()}) {
       extent.low = extent.low.cwiseMin(end);
       extent.high = extent.high.cwiseMax(end);
     }
+  }
+  for (const LearnedPoint& point : learned.points) {
+    extent.low = extent.low.cwiseMin(point.at());
+    extent.high = extent.high.cwiseMax(point.at());
   }
   for (const LearnedDoor& door : learned.doors) {
     extent.low = extent.low.cwiseMin(Vector2d(door.x_m, door.y_m));
@@ -107,6 +115,7 @@ Drawing DrawMap(const GroundPlan& plan, const LearnedWalls& learned) {
   for (const LearnedDoor& door : learned.doors) DrawDoor(view, door, plan);
   for (const LearnedObject& object : learned.objects) DrawObject(view, object);
   for (const WallCorner& corner : CornersOf(learned)) view.Dot(kCorner, {corner.x_m, corner.y_m}, 7);
+  for (const LearnedPoint& point : learned.points) view.Cross(kPoint, point.at(), kPoint_px);
   view.SetLabels();
   const double top = window.bottom() + kMapMargin;
   page.SetHeight(top + drawing::WriteLegend(page, kMapMargin, top, kMapInner, {kBodyFont, colours::kInk}) +

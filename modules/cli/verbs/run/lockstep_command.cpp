@@ -69,6 +69,11 @@ std::string Line(const LockstepResult& result) {
     return fmt::format("seed {:<6} {}  contacts {}  gap {:.3f} m  {}  {:.0f} s  {:4.1f}x  {}", s.seed,
                        s.passed ? "passed" : "FAILED", s.contacts, s.min_gap_m, Text(*s.hand),
                        Seconds(result.duration), s.realtime_factor, s.passed ? "" : s.reason);
+  if (s.explore)
+    return fmt::format(
+        "seed {:<6} {}  contacts {}  gap {:.3f} m  {}  {:.0f} m driven  {:.0f} s  {:4.1f}x  {}", s.seed,
+        s.passed ? "passed" : "FAILED", s.contacts, s.min_gap_m, SeenText(*s.explore), s.explore->driven_m,
+        s.duration_s, s.realtime_factor, s.passed ? "" : s.reason);
   return fmt::format("seed {:<6} {}  contacts {}  gap {:.3f} m  lateral {:+.3f} m  {:5.1f} s  {:4.1f}x  {}",
                      s.seed, s.passed ? "passed" : "FAILED", s.contacts, s.min_gap_m,
                      s.lateral_at_door_m.value_or(NAN), s.duration_s, s.realtime_factor,
@@ -120,14 +125,19 @@ int Run(const LockstepOptions& options) {
   RequireWritable(options);
   const std::vector<Summary> all = RunAll(options);
   int passed = 0, contacts = 0;
+  double least_seen = 1;
+  bool explored = false;
   for (const Summary& summary : all) {
     passed += summary.passed;
     contacts += summary.contacts;
+    least_seen = std::min(least_seen, summary.explore ? summary.explore->seen : 1);
+    explored = explored || summary.explore;
     if (options.runs == 1) PrintSummary(People(options), summary);
   }
   if (options.json) WriteJson(options.json_file, all);
   if (options.runs > 1)
-    People(options) << fmt::format("{} of {} passed, {} contacts\n", passed, options.runs, contacts);
+    People(options) << fmt::format("{} of {} passed, {} contacts{}\n", passed, options.runs, contacts,
+                                   explored ? fmt::format(", seen {:.1f} % at least", 100 * least_seen) : "");
   return passed == options.runs && contacts == 0 ? 0 : 1;
 }
 

@@ -17,23 +17,22 @@ struct AheadWatchConfig {
 };
 
 /// Sequence of glances ahead, while the base drives and nobody else needs the head.
-class AheadWatch {
+class AheadWatch : private GlanceRhythm {
  public:
+  using GlanceRhythm::Defer;
+
   explicit AheadWatch(const AheadWatchConfig& config)
-      : config_(config), rhythm_(config.every_s, config.idle_s) {}
+      : GlanceRhythm(config.every_s, config.idle_s), config_(config) {}
 
   /// One time step; true: begin a glance now. See GlanceRhythm::Step.
   bool Step(bool needed, bool glancing, bool drives, Time now) {
-    return rhythm_.Step(needed, glancing, drives && config_.ahead, now);
+    return GlanceRhythm::Step(needed, glancing, drives && config_.ahead, now);
   }
-  /// Somebody needs the head now, as in Step.
-  void Defer(Time now) { rhythm_.Defer(now); }
   /// The setting of a glance; vergence, zoom and focus as in `base`.
   HeadSetting SettingFrom(HeadSetting base) const;
 
  private:
   AheadWatchConfig config_;
-  GlanceRhythm rhythm_;
 };
 
 }  // namespace priamos::head

@@ -14,7 +14,7 @@ void SideWatchConfig::Describe(Archive& a) {
 }
 
 std::optional<double> SideWatch::Step(bool needed, bool glancing, bool follows, Time now) {
-  if (!rhythm_.Step(needed, glancing, follows && config_.corridors, now)) return std::nullopt;
+  if (!GlanceRhythm::Step(needed, glancing, follows && config_.corridors, now)) return std::nullopt;
   side_ = -side_;
   return side_ * Radians(config_.pan_deg);
 }

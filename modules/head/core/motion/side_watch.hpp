@@ -23,22 +23,21 @@ struct SideWatchConfig {
 
 /// Sequence of glances to the left and to the right in turn, while the base follows a corridor and nobody
 /// else needs the head.
-class SideWatch {
+class SideWatch : private GlanceRhythm {
  public:
+  using GlanceRhythm::Defer;
+
   explicit SideWatch(const SideWatchConfig& config)
-      : config_(config), rhythm_(config.every_s, config.idle_s) {}
+      : GlanceRhythm(config.every_s, config.idle_s), config_(config) {}
 
   /// One time step; a pan angle [rad]: begin a glance there. `follows`: the base drives along a corridor; see
   /// GlanceRhythm::Step.
   std::optional<double> Step(bool needed, bool glancing, bool follows, Time now);
-  /// Somebody needs the head now, as in Step.
-  void Defer(Time now) { rhythm_.Defer(now); }
   /// The setting of a glance at `pan_rad`; vergence and focus as in `base`.
   HeadSetting SettingAt(double pan_rad, HeadSetting base) const;
 
  private:
   SideWatchConfig config_;
-  GlanceRhythm rhythm_;
   int side_ = 1;
 };
 

@@ -77,9 +77,7 @@ std::optional<Refusal> Agenda::Take(AgendaOrder order, Time now) {
     return refusal;
   }
   if (order.title.empty()) order.title = TitleOf(order.steps.front());
-  const auto& drive = missions_.heard().drive;
-  waiting_.push_back(
-      {std::move(order), drive ? std::optional(drive->estop_changes) : std::nullopt, now, now});
+  waiting_.push_back({std::move(order), EstopWatch(missions_.heard().drive), now, now});
   ++changes_;
   if (!current_ && !paused_) BeginNext(now);
   return std::nullopt;
@@ -123,8 +121,8 @@ MissionActions Agenda::Tick(Time now) {
 void Agenda::CheckEstop() {
   const auto& drive = missions_.heard().drive;
   if (!drive) return;
-  if (!current_->estop_changes) current_->estop_changes = drive->estop_changes;
-  if (const auto reason = WhyEstopEnds(*drive, *current_->estop_changes)) runner_.End(*reason);
+  current_->estop.Note(*drive);
+  if (const auto reason = current_->estop.WhyEnds(*drive)) runner_.End(*reason);
 }
 
 void Agenda::EndStep(Time now) {

@@ -67,10 +67,10 @@ class Agenda {
   std::string TitleOf(const AgendaStep& step) const;
 
  private:
-  /// An order and the emergency stops that were counted when it was given.
+  /// An order, and the emergency stops since it was given.
   struct Given {
     AgendaOrder order;
-    std::optional<int> estop_changes;
+    EstopWatch estop;
     Time given{}, begun{};
   };
 

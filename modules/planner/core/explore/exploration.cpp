@@ -106,6 +106,12 @@ std::size_t Exploration::Here() const {
   return poses_.empty() ? 0 : poses_.size() - 1;
 }
 
+double Exploration::reached_m() const {
+  double most_m = 0;
+  for (const Vector2d& at : evidence_.trail) most_m = std::max(most_m, (at - evidence_.trail.front()).norm());
+  return most_m;
+}
+
 void Exploration::Learn(const LearnedWalls& walls, const std::vector<NamedObstacle>& seen) {
   evidence_.walls = WithoutPassages(WithoutEdges(walls), evidence_.trail, clearance_m_ + 2 * kRaster_m);
   evidence_.edges.clear();

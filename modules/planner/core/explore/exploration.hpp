@@ -117,6 +117,8 @@ class Exploration {
 
   const ExploredGrid& grid();
   double driven_m() const { return driven_m_; }
+  /// How far from where it began the base has been.
+  double reached_m() const;
 
  private:
   /// Middles of cells stand for places that are up to half a diagonal away.

@@ -77,19 +77,21 @@ GraphSight FloorGraph::SightOf(const Told& told) const {
   return {told.key, told.line, told.key_from_middle, config_.across_m, yaw};
 }
 
-void FloorGraph::NoteWall(const SeenWall& seen) {
+void FloorGraph::Note(const SeenFeature& seen) {
   if (keys_.empty()) return;
-  const Name name{seen.store, seen.id};
-  const auto before = told_.find(name);
   changed_ = true;
-  if (seen.gone) {
-    if (before != told_.end()) told_.erase(before);
-    return;
-  }
-  const int key = KeyAt(seen.wall.seen_s);
+  if (!seen.wall()) told_.erase(seen.name());
+  if (!seen.point()) points_.erase(seen.name());
+  if (const LearnedWall* wall = seen.wall()) NoteWall(seen.name(), *wall);
+  if (const LearnedPoint* point = seen.point()) NotePoint(seen.name(), *point);
+}
+
+void FloorGraph::NoteWall(const FeatureName& name, const LearnedWall& wall) {
+  const auto before = told_.find(name);
+  const int key = KeyAt(wall.seen_s);
   const Pose2 key_from_middle =
-      keys_[std::size_t(key)].robot_frame_from_base.Inverse() * seen.wall.map_from_wall();
-  Told told{key, before == told_.end() ? -1 : before->second.line, key_from_middle, seen.wall};
+      keys_[std::size_t(key)].robot_frame_from_base.Inverse() * wall.map_from_wall();
+  Told told{key, before == told_.end() ? -1 : before->second.line, key_from_middle, wall};
   if (told.wall.length_m >= config_.least_m) {
     const Pose2 middle = graph_.pose(key) * key_from_middle;
     if (told.line < 0) told.line = graph_.AddLine({middle.translation(), middle.yaw, 0});
@@ -98,12 +100,10 @@ void FloorGraph::NoteWall(const SeenWall& seen) {
   told_[name] = told;
 }
 
-void FloorGraph::NotePoint(const SeenPoint& seen) {
-  if (keys_.empty()) return;
-  const int key = KeyAt(seen.point.seen_s);
-  const Vector2d in_key = keys_[std::size_t(key)].robot_frame_from_base.Inverse() * seen.point.at();
-  points_[{seen.store, seen.id}] = {key, in_key, seen.point};
-  changed_ = true;
+void FloorGraph::NotePoint(const FeatureName& name, const LearnedPoint& point) {
+  const int key = KeyAt(point.seen_s);
+  const Vector2d in_key = keys_[std::size_t(key)].robot_frame_from_base.Inverse() * point.at();
+  points_[name] = {key, in_key, point};
 }
 
 bool FloorGraph::Settle() {

@@ -10,7 +10,7 @@
 #include "common/learned/learned_walls.hpp"
 #include "planner/core/graph/pose_graph.hpp"
 #include "planner/core/graph/wall_spans.hpp"
-#include "planner/core/map/learned_map.hpp"
+#include "planner/core/map/seen_feature.hpp"
 
 namespace priamos::planner {
 
@@ -52,10 +52,9 @@ class FloorGraph {
   void Reset();
   /// The robot is here, by its own frame, at a time [s]. The first pose is the frame of the map.
   void NoteAt(const Pose2& robot_frame_from_base, double at_s);
-  /// A wall as the robot tells it, in its own frame. Nothing changes before the first pose.
-  void NoteWall(const SeenWall& seen);
-  /// A corner or an edge, likewise. It ties nothing together.
-  void NotePoint(const SeenPoint& seen);
+  /// A wall as the robot tells it, in its own frame; or a corner or an edge, which ties nothing together.
+  /// Nothing changes before the first pose.
+  void Note(const SeenFeature& seen);
   /// Joins walls that are one, and adjusts everything. Returns whether anything came since the last time.
   bool Settle();
 
@@ -75,7 +74,6 @@ class FloorGraph {
   bool is_square() const { return graph_.axis_rad().has_value(); }
 
  private:
-  using Name = std::pair<int, int>;  ///< store and number
   struct Key {
     double at_s = 0;
     Pose2 robot_frame_from_base;
@@ -97,6 +95,8 @@ class FloorGraph {
     double sigma_m = 0, distance = 0;
   };
 
+  void NoteWall(const FeatureName& name, const LearnedWall& wall);
+  void NotePoint(const FeatureName& name, const LearnedPoint& point);
   int KeyAt(double at_s) const;
   void AddKey(const Pose2& at, double at_s);
   GraphSight SightOf(const Told& told) const;
@@ -118,8 +118,8 @@ class FloorGraph {
   std::vector<Key> keys_;
   Key newest_;
   double driven_m_ = 0, turned_rad_ = 0;  ///< since the newest key
-  std::map<Name, Told> told_;
-  std::map<Name, ToldPoint> points_;
+  std::map<FeatureName, Told> told_;
+  std::map<FeatureName, ToldPoint> points_;
   std::set<std::pair<int, int>> apart_;  ///< lines that are not one
   bool changed_ = false;
   int loops_ = 0, refused_ = 0;

@@ -69,16 +69,16 @@ const WayLog::Spot& WayLog::SpotAt(double utc_s) const {
   return *(after - 1);
 }
 
-void WayLog::OnWall(const SeenWall& seen) {
-  const std::pair name{seen.store, seen.id};
-  if (seen.gone || spots_.empty()) {
-    revision_ += pieces_.erase(name);
+void WayLog::OnFeature(const SeenFeature& seen) {
+  const LearnedWall* wall = seen.wall();
+  if (!wall || spots_.empty()) {
+    revision_ += pieces_.erase(seen.name());
     return;
   }
-  if (seen.wall.seen_s < not_before_s_ + kSeenStep_s) return;
-  const Spot& spot = SpotAt(seen.wall.seen_s);
-  pieces_[name] = {way_from_told_ * seen.wall.map_from_wall(), seen.wall.length_m,
-                   spot.way_from_base.translation(), spot.at_m};
+  if (wall->seen_s < not_before_s_ + kSeenStep_s) return;
+  const Spot& spot = SpotAt(wall->seen_s);
+  pieces_[seen.name()] = {way_from_told_ * wall->map_from_wall(), wall->length_m,
+                          spot.way_from_base.translation(), spot.at_m};
   ++revision_;
 }
 

@@ -4,13 +4,12 @@
 #include <cstddef>
 #include <map>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "common/archive.hpp"
 #include "common/geometry.hpp"
 #include "common/time.hpp"
-#include "planner/core/map/learned_map.hpp"
+#include "planner/core/map/seen_feature.hpp"
 
 namespace priamos::planner {
 
@@ -47,8 +46,8 @@ class WayLog {
   /// The newest pose, map frame of the robot; `corrected`: when its pose was set or corrected last, if it
   /// was.
   void OnPose(Time stamp, const Pose2& told_from_base, std::optional<Time> corrected);
-  /// A wall that it reported.
-  void OnWall(const SeenWall& seen);
+  /// A feature that it reported: walls count.
+  void OnFeature(const SeenFeature& seen);
 
   bool empty() const { return spots_.empty(); }
   /// Pieces on one line that overlap are one. Of an empty log there is no way.
@@ -73,7 +72,7 @@ class WayLog {
   std::optional<Time> corrected_;
   double not_before_s_ = 0;
   double driven_m_ = 0;
-  std::map<std::pair<int, int>, HeardPiece> pieces_;  ///< by store and number
+  std::map<FeatureName, HeardPiece> pieces_;
   std::size_t revision_ = 0;
 };
 

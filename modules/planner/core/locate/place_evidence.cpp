@@ -28,9 +28,9 @@ void PlaceEvidence::Begin(Time now) {
   changed_ = {};
 }
 
-void PlaceEvidence::OnWall(const SeenWall& seen, Time now) {
+void PlaceEvidence::OnFeature(const SeenFeature& seen, Time now) {
   const std::size_t before = log_.revision();
-  log_.OnWall(seen);
+  log_.OnFeature(seen);
   if (log_.revision() != before) changed_ = now;
 }
 

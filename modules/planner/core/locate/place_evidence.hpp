@@ -25,8 +25,8 @@ class PlaceEvidence {
   void OnPose(Time stamp, const Pose2& told_from_base, std::optional<Time> corrected) {
     log_.OnPose(stamp, told_from_base, corrected);
   }
-  /// A wall that the robot reported now.
-  void OnWall(const SeenWall& seen, Time now);
+  /// A feature that the robot reported now: walls count.
+  void OnFeature(const SeenFeature& seen, Time now);
 
   /// Weighs all places of the plan anew, when there is something new to weigh them by.
   const std::vector<PlaceCandidate>& Search();

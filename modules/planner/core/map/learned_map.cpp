@@ -46,19 +46,35 @@ LearnedWall* LearnedMap::Find(int id) {
   return found == walls_.walls.end() ? nullptr : &*found;
 }
 
-bool LearnedMap::Take(const SeenWall& seen) {
-  const auto known = ids_.find({seen.store, seen.id});
-  if (seen.gone) {
-    if (known == ids_.end()) return false;
-    Remove(known->second);
-    ++walls_.revision;
-    return true;
+bool LearnedMap::Take(const SeenFeature& seen) {
+  if (seen.gone()) {
+    if (!Forget(seen.name())) return false;
+  } else if (const LearnedWall* wall = seen.wall()) {
+    points_.Forget(seen.name(), walls_.points);
+    TakeWall(seen.name(), *wall);
+  } else {
+    Leave(seen.name());
+    points_.Take(seen.name(), *seen.point(), walls_.points);
   }
+  ++walls_.revision;
+  return true;
+}
+
+/// What was seen through is none, whatever else it was told under. Returns whether there was any.
+bool LearnedMap::Forget(const FeatureName& name) {
+  const auto known = ids_.find(name);
+  if (known == ids_.end()) return points_.Forget(name, walls_.points);
+  Remove(known->second);
+  return true;
+}
+
+void LearnedMap::TakeWall(const FeatureName& name, const LearnedWall& told) {
+  const auto known = ids_.find(name);
   if (known == ids_.end()) {
-    Consolidate(Begin(seen).id);
+    Consolidate(Begin(name, told).id);
   } else {
     LearnedWall& wall = *Find(known->second);
-    LearnedWall next = seen.wall;
+    LearnedWall next = told;
     next.id = wall.id;
     next.sightings = wall.sightings + 1;
     const bool alone = names_[wall.id].size() == 1 && !older_.contains(wall.id);
@@ -68,22 +84,23 @@ bool LearnedMap::Take(const SeenWall& seen) {
       next.sightings = 1;
       wall = UnionOf(wall, next);
     } else {
-      // It is not where it was: the rest of the wall stays, and it is one of its own.
-      names_[wall.id].erase(known->first);
-      older_.insert(wall.id);
-      ids_.erase(known);
-      Consolidate(Begin(seen).id);
+      Leave(name);
+      Consolidate(Begin(name, told).id);
     }
-    if (const auto id = ids_.find({seen.store, seen.id}); id != ids_.end()) Consolidate(id->second);
+    if (const auto id = ids_.find(name); id != ids_.end()) Consolidate(id->second);
   }
-  ++walls_.revision;
   MakeRoom();
-  return true;
 }
 
-void LearnedMap::Take(const SeenPoint& seen) {
-  EnterPoint(seen.point, walls_.points);
-  ++walls_.revision;
+/// What has this name is not where it was, or no wall: the rest of the wall that it is part of stays.
+void LearnedMap::Leave(const FeatureName& name) {
+  const auto known = ids_.find(name);
+  if (known == ids_.end()) return;
+  const int id = known->second;
+  if (names_[id].size() == 1 && !older_.contains(id)) return Remove(id);
+  names_[id].erase(name);
+  older_.insert(id);
+  ids_.erase(known);
 }
 
 bool LearnedMap::Take(const LearnedDoor& told) {
@@ -94,11 +111,10 @@ bool LearnedMap::Take(const LearnedDoor& told) {
   return true;
 }
 
-LearnedWall& LearnedMap::Begin(const SeenWall& seen) {
-  LearnedWall wall = seen.wall;
+LearnedWall& LearnedMap::Begin(const FeatureName& name, const LearnedWall& told) {
+  LearnedWall wall = told;
   wall.id = ++last_id_;
   wall.sightings = 1;
-  const Name name{seen.store, seen.id};
   ids_[name] = wall.id;
   names_[wall.id] = {name};
   walls_.walls.push_back(wall);
@@ -115,7 +131,7 @@ void LearnedMap::Consolidate(int id) {
     if (other == walls_.walls.end()) return;
     const int kept = std::min(id, other->id), gone = std::max(id, other->id);
     *Find(kept) = UnionOf(*Find(kept), *Find(gone));
-    for (const Name& name : names_[gone]) ids_[name] = kept;
+    for (const FeatureName& name : names_[gone]) ids_[name] = kept;
     names_[kept].merge(names_[gone]);
     if (older_.contains(gone)) older_.insert(kept);
     names_.erase(gone);
@@ -126,7 +142,7 @@ void LearnedMap::Consolidate(int id) {
 }
 
 void LearnedMap::Remove(int id) {
-  for (const Name& name : names_[id]) ids_.erase(name);
+  for (const FeatureName& name : names_[id]) ids_.erase(name);
   names_.erase(id);
   older_.erase(id);
   std::erase_if(walls_.walls, [id](const LearnedWall& wall) { return wall.id == id; });
@@ -147,6 +163,7 @@ void LearnedMap::Reset() {
   ids_.clear();
   names_.clear();
   older_.clear();
+  points_.Clear();
 }
 
 bool LearnedMap::AreOne(const LearnedWall& a, const LearnedWall& b) const {

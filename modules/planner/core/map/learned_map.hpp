@@ -3,12 +3,13 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <utility>
 #include <vector>
 
 #include "common/archive.hpp"
 #include "common/learned/learned_walls.hpp"
 #include "common/learned/object_book.hpp"
+#include "planner/core/map/point_book.hpp"
+#include "planner/core/map/seen_feature.hpp"
 
 namespace priamos::planner {
 
@@ -24,31 +25,16 @@ struct LearnedMapConfig {
   void Describe(Archive& a);
 };
 
-/// A wall as a robot tells of it. Its number means something within its store only.
-struct SeenWall {
-  int store = 0, id = 0;
-  bool gone = false;  ///< the robot saw through it
-  LearnedWall wall;   ///< its own id and sightings mean nothing
-};
-
-/// A place that echoes to all sides, as a robot tells of it; likewise.
-struct SeenPoint {
-  int store = 0, id = 0;
-  LearnedPoint point;
-};
-
-/// The walls that robots found, in the map frame. What is told again under its number replaces what was told
-/// before. Walls that lie on each other, or follow each other, are one: their lines are joined by covariance
-/// intersection (Julier and Uhlmann), which is consistent whatever part of their errors they share, for
-/// instance that of the pose from which both were seen.
+/// The walls and points that robots found, in the map frame. What is told again under its number replaces
+/// what was told before. Walls that lie on each other, or follow each other, are one: their lines are joined
+/// by covariance intersection (Julier and Uhlmann), which is consistent whatever part of their errors they
+/// share, for instance that of the pose from which both were seen.
 class LearnedMap {
  public:
   explicit LearnedMap(const LearnedMapConfig& config, LearnedWalls known = {});
 
   /// Takes what a robot tells. Returns whether the map is another one now.
-  bool Take(const SeenWall& seen);
-  /// Takes what a robot tells of a point, see EnterPoint(): the map is another one then.
-  void Take(const SeenPoint& seen);
+  bool Take(const SeenFeature& seen);
   /// Takes what a robot tells of a door, see EnterDoor(); likewise.
   bool Take(const LearnedDoor& told);
   /// Takes what a robot tells of a thing, see EnterObject(); likewise.
@@ -62,10 +48,12 @@ class LearnedMap {
   const LearnedWalls& walls() const { return walls_; }
 
  private:
-  using Name = std::pair<int, int>;  ///< store and number
   void NoteOlder();
+  bool Forget(const FeatureName& name);
+  void TakeWall(const FeatureName& name, const LearnedWall& told);
+  void Leave(const FeatureName& name);
   LearnedWall* Find(int id);
-  LearnedWall& Begin(const SeenWall& seen);
+  LearnedWall& Begin(const FeatureName& name, const LearnedWall& told);
   void Consolidate(int id);
   void Remove(int id);
   void MakeRoom();
@@ -73,9 +61,10 @@ class LearnedMap {
 
   LearnedMapConfig config_;
   LearnedWalls walls_;
-  std::map<Name, int> ids_;              ///< of the wall that a name is part of
-  std::map<int, std::set<Name>> names_;  ///< the other way round
-  std::set<int> older_;                  ///< walls that hold more than what these names tell
+  std::map<FeatureName, int> ids_;              ///< of the wall that a name is part of
+  std::map<int, std::set<FeatureName>> names_;  ///< the other way round
+  std::set<int> older_;                         ///< walls that hold more than what these names tell
+  PointBook points_;
   int last_id_ = 0;
 };
 

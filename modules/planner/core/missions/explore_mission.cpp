@@ -21,12 +21,15 @@ constexpr double kSamePlace_m = 0.3, kBack_m = 1.5, kShutIn_m = 1.0;
 /// before the border is given up; one that is farther away only after more stops.
 constexpr double kAtTarget_m = 2.5;
 constexpr int kMostStopsAtTarget = 1, kMostStopsHere = 3;
+/// Who comes no farther has stayed where it was, or, with frontiers left, in a place that is closed all
+/// around.
+constexpr double kMovesAtLeast_m = 0.3, kLeavesAtLeast_m = 1.5;
 /// A round that saw no more than so much more has seen nothing.
 constexpr double kMore_m2 = 1.0;
 /// Frontiers that the outcome names; a result holds no more words.
 constexpr std::size_t kNamed = 1;
-/// Of walls that were known before the order; robots have others.
-constexpr int kNoStore = 0;
+/// Of walls and points that were known before the order; robots have others.
+constexpr int kWallStore = 0, kPointStore = -1;
 /// A map that has moved by so much under a robot on its way is a reason to plan it anew.
 constexpr double kMoved_m = 0.15;
 
@@ -119,9 +122,8 @@ void ExploreMission::Note(MissionControl& control) {
   graph_.NoteAt(heard.pose->map_from_base, SecondsOf(heard.pose->stamp));
   if (begins && heard.learned) NoteKnown(*heard.learned);
   NoteObjects(control);
-  for (const SeenWall& seen : heard.told) graph_.NoteWall(seen);
-  for (const SeenPoint& seen : heard.told_points) graph_.NotePoint(seen);
-  if (!(heard.told.empty() && heard.told_points.empty()) && graph_.Settle()) {
+  for (const SeenFeature& seen : heard.told) graph_.Note(seen);
+  if (!heard.told.empty() && graph_.Settle()) {
     std::vector<Pose2> trail;
     for (const GraphAnchor& anchor : trail_) trail.push_back(graph_.PlaceOf(anchor));
     exploration_.MoveTrail(trail);
@@ -135,9 +137,8 @@ void ExploreMission::Note(MissionControl& control) {
 
 /// What was told before the order.
 void ExploreMission::NoteKnown(const LearnedWalls& known) {
-  int number = 0;
-  for (const LearnedWall& wall : known.walls) graph_.NoteWall({kNoStore, wall.id, false, wall});
-  for (const LearnedPoint& point : known.points) graph_.NotePoint({kNoStore, ++number, point});
+  for (const LearnedWall& wall : known.walls) graph_.Note({kWallStore, wall.id, wall});
+  for (const LearnedPoint& point : known.points) graph_.Note({kPointStore, point.id, point});
 }
 
 void ExploreMission::NoteObjects(const MissionControl& control) {
@@ -226,7 +227,7 @@ void ExploreMission::Arrive(MissionControl& control) {
 /// that is stopped several times at a place stands too near to something, and goes back farther.
 void ExploreMission::OnStop(MissionControl& control, const Stop& stop) {
   Note(control);
-  if (outcome_) return control.Enter(Phase::kDone, *outcome_);
+  if (outcome_) return End(control);
   placing_ = Placing::kNo;
   if (stop.cause != Stop::Cause::kBlocked || (!goal_ && !backing_))
     return control.Fail(stop.reason + "; next: look what it is, and order it again");
@@ -353,14 +354,37 @@ std::string ExploreMission::Left() const {
   return text;
 }
 
+/// Why what was seen is no exploration; empty: it is one.
+std::string ExploreMission::WhyNothing(const Pose2& base) const {
+  const double reached_m = exploration_.reached_m();
+  if (reached_m < kMovesAtLeast_m) return "the base has not moved";
+  if (exploration_.left().empty()) return "";
+  if (reached_m < kLeavesAtLeast_m) return "the base has not left where it began";
+  const bool here = stopped_at_ && (base.translation() - *stopped_at_).norm() < kSamePlace_m;
+  return here && stops_here_ > kMostStopsHere ? "the base is shut in" : "";
+}
+
 void ExploreMission::Finish(MissionControl& control) {
-  outcome_ = fmt::format("explored {:.0f} m2 in {:.0f} s, {:.0f} m driven{}", exploration_.grid().free_m2(),
-                         Seconds(control.now() - control.started()), exploration_.driven_m(), Left());
+  const std::string nothing = WhyNothing(BaseOf(control));
+  const std::string seen =
+      fmt::format("explored {:.0f} m2 in {:.0f} s, {:.0f} m driven{}", exploration_.grid().free_m2(),
+                  Seconds(control.now() - control.started()), exploration_.driven_m(), Left());
+  if (nothing.empty())
+    outcome_ = {Phase::kDone, seen};
+  else
+    outcome_ = {Phase::kFailed,
+                fmt::format("{}: nothing more is reached; next: see what is around it, priamos map reset; {}",
+                            nothing, seen)};
   LearnedWalls made = exploration_.walls();
   made.objects = objects_.At(graph_);  // where the robot is told to be on the map, too
   control.SendMap(std::move(made));
   placing_ = Placing::kNo;
   Place(control);
+}
+
+void ExploreMission::End(MissionControl& control) {
+  if (outcome_->phase == Phase::kFailed) return control.Fail(outcome_->text);
+  control.Enter(outcome_->phase, outcome_->text);
 }
 
 }  // namespace priamos::planner

@@ -21,7 +21,9 @@ namespace priamos::planner {
 /// The mission "see the whole floor": from frontier to frontier until none is left that can be reached. What
 /// is free is known from where the base was and from the walls that it told, both put where the graph has
 /// them; what stops it is put on the map where it stands, for the length of the mission. A frontier that
-/// cannot be reached is left, with the reason; the outcome names the largest.
+/// cannot be reached is left, with the reason; the outcome names the largest. A base that has not moved, or
+/// with frontiers left has not got away from where it began or cannot move any more, has failed: what is
+/// around it may not be there.
 class ExploreMission : public Mission {
  public:
   ExploreMission(const ExploreMissionConfig& config, const Footprint& footprint, const GroundPlan& plan);
@@ -58,6 +60,8 @@ class ExploreMission : public Mission {
   Outcome<PlannedPath> WayTo(const Pose2& base, const FrontierGoal& frontier);
   void DriveTo(MissionControl& control, const FrontierGoal& frontier, PlannedPath path);
   void Finish(MissionControl& control);
+  std::string WhyNothing(const Pose2& base) const;
+  void End(MissionControl& control);
   bool IsVague(const MissionControl& control) const;
   void Place(MissionControl& control);
   std::string Left() const;
@@ -91,7 +95,7 @@ class ExploreMission : public Mission {
   bool learned_ = false;                       ///< the map as it is now was taken into account
   Placing placing_ = Placing::kNo;
   Time braked_{};
-  std::optional<std::string> outcome_;  ///< it is over but for the robot's pose
+  std::optional<MissionState> outcome_;  ///< it is over but for the robot's pose
 };
 
 }  // namespace priamos::planner

@@ -24,7 +24,7 @@ struct ExploreMissionConfig {
   /// Who has many frontiers does not search for one for long. Among walls that are not known it does not
   /// turn: sonars hear what its sides face, and a corner swings into what they do not.
   RoutePlannerConfig route{
-      .least_leeway_m = kLeastLeeway_m, .turn_m = 0.6, .sideways = 0, .most_poses = 60000};
+      .least_leeway_m = kLeastLeeway_m, .costs = {.turn_m = 0.6, .sideways = 0}, .most_poses = 60000};
   ExplorationConfig choice;
   FloorGraphConfig graph;
 

@@ -38,7 +38,7 @@ void ExploreMission::Place(MissionControl& control) {
   }
   if (control.IsPlacing()) return;
   placing_ = Placing::kNo;
-  if (outcome_) return control.Enter(Phase::kDone, *outcome_);
+  if (outcome_) return End(control);
   Next(control);
 }
 

@@ -103,7 +103,7 @@ void LocateMission::Listen(const MissionControl& control) {
   const Heard& heard = control.heard();
   if (control.IsPlacing() && stage_ == Stage::kFraming && evidence_.log().empty()) return;
   evidence_.OnPose(heard.pose->stamp, heard.pose->map_from_base, heard.corrected);
-  for (const SeenWall& wall : heard.told) evidence_.OnWall(wall, control.now());
+  for (const SeenFeature& seen : heard.told) evidence_.OnFeature(seen, control.now());
   if (evidence_.log().empty() || !heard.drive || !heard.drive->nearest) return;
   const ThingNear& nearest = *heard.drive->nearest;
   evidence_.met().OnEcho(evidence_.log().way_from_base() * nearest.at, nearest.free_m);

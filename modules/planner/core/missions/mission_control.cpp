@@ -30,8 +30,7 @@ void MissionControl::Begin(Time now) {
   place_.reset();
   place_refused_ = false;
   // The order stands on what its operator could know: a stop that is not reported yet came after it.
-  estop_changes_.reset();
-  if (heard_.drive) estop_changes_ = heard_.drive->estop_changes;
+  estop_ = EstopWatch(heard_.drive);
   NumberFrom(now);
   Enter(Phase::kWaiting, "waiting for the robot's pose");
   faces_are_own_ = false;
@@ -46,7 +45,7 @@ void MissionControl::NumberFrom(Time now) {
 void MissionControl::NoteDrive(const DriveReport& drive) {
   heard_.drive = drive;
   if (OnPath()) remaining_m_ = drive.remaining_m;
-  if (!estop_changes_) estop_changes_ = drive.estop_changes;
+  estop_.Note(drive);
 }
 
 void MissionControl::Fail(std::string reason) {
@@ -107,7 +106,7 @@ void MissionControl::GoOn() {
 }
 
 void MissionControl::SendPath() {
-  path_.estop_changes = estop_changes_.value_or(0);
+  path_.estop_changes = estop_.changes();
   path_sent_ = now_;
   actions_.path = path_;
 }

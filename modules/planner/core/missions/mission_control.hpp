@@ -8,6 +8,7 @@
 
 #include "common/learned/learned_walls.hpp"
 #include "common/time.hpp"
+#include "planner/core/missions/estop_watch.hpp"
 #include "planner/core/missions/mission_types.hpp"
 #include "planner/core/path/planned_path.hpp"
 
@@ -23,8 +24,7 @@ struct Heard {
   std::vector<LeafSighting> leaves;      ///< leaves of doors seen since the last time step, in order
   std::shared_ptr<const LearnedWalls> learned;  ///< walls that robots found; another object when they change
   std::vector<LookResult> looks;                ///< answers to looks since the last time step, in order
-  std::vector<SeenWall> told;          ///< walls that the robot told of since the last time step, in order
-  std::vector<SeenPoint> told_points;  ///< likewise corners and edges
+  std::vector<SeenFeature> told;  ///< features that the robot told of since the last time step, in order
 };
 
 /// A mission's view of the robot: its state, and the orders and the state that leave in this time
@@ -116,7 +116,7 @@ class MissionControl {
     double remaining_m = 0;
   };
   std::optional<Held> held_;
-  std::optional<int> estop_changes_;  ///< as last reported before the order, else as reported first after it
+  EstopWatch estop_;
   int last_number_ = 0;
 };
 

@@ -15,14 +15,6 @@ std::string Because(const DriveReport& drive) {
 
 }  // namespace
 
-/// Not to be waited for: what moves after the re-arming is for a person to order anew.
-std::optional<std::string> WhyEstopEnds(const DriveReport& drive, int changes) {
-  if (drive.estop) return "the emergency stop is latched; next: priamos estop --rearm, and a new order";
-  if (drive.estop_changes != changes)
-    return "the emergency stop was pressed or lifted since the order; next: order it again";
-  return std::nullopt;
-}
-
 void MissionLimits::Describe(Archive& a) {
   a.Number("resend_path_s", resend_path_s, {"s", 1, 60, "a path not confirmed by then is sent again"});
   a.Number("blocked_s", blocked_s, {"s", 1, 600, "standing before an obstacle that stops the mission"});
@@ -121,7 +113,6 @@ MissionActions MissionTable::Tick(Time now) {
   if (!idle || !running()) {
     control_.heard_.looks.clear();
     control_.heard_.told.clear();
-    control_.heard_.told_points.clear();
     control_.heard_.leaves.clear();
   }
   return std::exchange(control_.actions_, {});
@@ -180,7 +171,7 @@ std::optional<std::string> MissionTable::ReasonToEnd(const Mission& mission) con
   const double active_s = Seconds(control_.now() - control_.started() - idle_);
   if (aborted_) return aborted_;
   if (heard.drive)
-    if (auto reason = WhyEstopEnds(*heard.drive, control_.estop_changes_.value_or(0))) return reason;
+    if (auto reason = control_.estop_.WhyEnds(*heard.drive)) return reason;
   if (auto reason = WhySilenceEnds(mission)) return reason;
   if (active_s > limits.limit_s)
     return fmt::format("{} after {:.0f} s", mission.Unfinished(), limits.limit_s);

@@ -11,10 +11,6 @@
 
 namespace priamos::planner {
 
-/// Why an emergency stop ends what was ordered when `changes` stops and re-armings were counted; nullopt:
-/// none came since.
-std::optional<std::string> WhyEstopEnds(const DriveReport& drive, int changes);
-
 /// The missions by the kind of their order, of which one at a time is carried out. Time is an argument,
 /// messages are stored by On...(), everything is decided in Tick(). Before the first order nothing is
 /// sent. The end of a mission is DONE, or FAILED with a sentence, and then the robot has been ordered to
@@ -60,8 +56,7 @@ class MissionTable {
   }
   /// What contradicts the robot's pose; nullopt: nothing does.
   std::optional<std::string> WhyLost() const { return lost_.Why(control_.heard().pose); }
-  void OnTold(const SeenWall& wall) { control_.heard_.told.push_back(wall); }
-  void OnTold(const SeenPoint& point) { control_.heard_.told_points.push_back(point); }
+  void OnTold(SeenFeature seen) { control_.heard_.told.push_back(std::move(seen)); }
   /// Notes that the robot's pose was corrected at `stamp`: older poses are not used for planning any more.
   void OnCorrected(Time stamp);
   void OnLeaf(const LeafSighting& leaf) { control_.heard_.leaves.push_back(leaf); }

@@ -7,8 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "planner/core/path/route_search.hpp"
-
 namespace priamos::planner {
 namespace {
 
@@ -70,8 +68,9 @@ void RoutePlannerConfig::Describe(Archive& a) {
   a.Number("least_margin_m", least_margin_m, {"m", 0, 1, "clearance where there is no such route"});
   a.Number("least_leeway_m", least_leeway_m,
            {"m", 0, 1, "how far any line may be left, but in a narrow passage"});
-  a.Number("turn_m", turn_m, {"m", 0, 10, "what turning by 22.5 degrees costs"});
-  a.Number("sideways", sideways, {"-", 0, 10, "driving backwards costs so much more, sideways half of it"});
+  a.Number("turn_m", costs.turn_m, {"m", 0, 10, "what turning by 22.5 degrees costs"});
+  a.Number("sideways", costs.sideways,
+           {"-", 0, 10, "driving backwards costs so much more, sideways half of it"});
   a.Integer("most_poses", most_poses,
             {"-", 0, 100000000, "poses that a search looks at, for either; 0: all"});
   if (least_margin_m > easy_margin_m) a.Refuse("least_margin_m", "at most easy_margin_m");
@@ -172,8 +171,7 @@ std::optional<PlannedPath> RoutePlanner::FindPath(const Pose2& map_from_start, c
                                           .turn = goal.turn,
                                           .margin_m = margin_m,
                                           .leaving_m = LeavingMargin(margin_m, start_gap_m),
-                                          .turn_m = config_.turn_m,
-                                          .sideways = config_.sideways,
+                                          .costs = config_.costs,
                                           .most_poses = config_.most_poses,
                                           .passages = passages_});
   if (!route) return std::nullopt;

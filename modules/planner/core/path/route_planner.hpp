@@ -10,6 +10,7 @@
 #include "planner/core/map/learned_obstacles.hpp"
 #include "planner/core/path/narrow_passages.hpp"
 #include "planner/core/path/planned_path.hpp"
+#include "planner/core/path/route_search.hpp"
 #include "planner/core/path/swept_footprint.hpp"
 
 namespace priamos::planner {
@@ -19,9 +20,8 @@ struct RoutePlannerConfig {
   double easy_margin_m = 0.30;   ///< preferred clearance to everything
   double least_margin_m = 0.10;  ///< clearance where there is no such route
   double least_leeway_m = 0;     ///< how far any line may be left at least, but in a narrow passage
-  double turn_m = 0.15;          ///< what turning by 22.5 degrees costs, in metres driven forward
-  double sideways = 0.15;        ///< driving backwards costs so much more, sideways half of it
-  int most_poses = 0;            ///< looked at for either; 0: all
+  RouteCosts costs{};
+  int most_poses = 0;  ///< looked at for either; 0: all
 
   void Describe(Archive& a);
 };

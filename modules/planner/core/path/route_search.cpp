@@ -122,7 +122,7 @@ class Search {
     const double distance_m = (there.translation() - from.pose.translation()).norm();
     const double turn_rad = std::abs(WrapAngle(there.yaw - from.pose.yaw));
     if (distance_m > most_m || turn_rad > 1.01 * kTurn_rad) return;
-    const double cost = from.cost + distance_m + turn_rad / kTurn_rad * query_.turn_m;
+    const double cost = from.cost + distance_m + turn_rad / kTurn_rad * query_.costs.turn_m;
     if (cost < cost_[to] && space_.IsFree(from.pose, there, margin_m)) Reach(to, cost, from.index);
   }
 
@@ -153,8 +153,8 @@ class Search {
     const Pose2 here = PoseOf(node);
     for (const int turn : {-1, 1}) {
       const Node next{node.x, node.y, (node.heading + turn + kHeadings) % kHeadings};
-      if (IsBetter(next, cost_[index] + query_.turn_m) && TurnIsFree(index, here, next))
-        Reach(IndexOf(next), cost_[index] + query_.turn_m, index);
+      if (IsBetter(next, cost_[index] + query_.costs.turn_m) && TurnIsFree(index, here, next))
+        Reach(IndexOf(next), cost_[index] + query_.costs.turn_m, index);
     }
     for (const auto& [dx, dy] : kMoves) {
       const Node next{node.x + dx, node.y + dy, node.heading};
@@ -162,7 +162,7 @@ class Search {
       const double ahead = std::cos(std::atan2(dy, dx) - here.yaw),
                    length_m = std::hypot(dx, dy) * DistanceField::kStep_m;
       const double cost =
-          cost_[index] + length_m * (1 + query_.sideways * (1 - ahead) / 2) * NearWall(next.x, next.y);
+          cost_[index] + length_m * (1 + query_.costs.sideways * (1 - ahead) / 2) * NearWall(next.x, next.y);
       if (IsBetter(next, cost) && MoveIsFree(index, here, next, length_m)) Reach(IndexOf(next), cost, index);
     }
   }
@@ -180,7 +180,7 @@ class Search {
     const bool ahead = (index - lattice_) % 2 == 0;
     const std::size_t other = ahead ? index + 1 : index - 1;
     const double length_m = (PoseAt(other).translation() - here.translation()).norm();
-    Reach(other, cost_[index] + length_m * (ahead ? 1 : 1 + query_.sideways), index);
+    Reach(other, cost_[index] + length_m * (ahead ? 1 : 1 + query_.costs.sideways), index);
     const Eigen::Vector2i cell = field_.CellOf(here.translation());
     for (int x = cell.x() - 1; x <= cell.x() + 1; ++x)
       for (int y = cell.y() - 1; y <= cell.y() + 1; ++y)

@@ -9,6 +9,12 @@
 
 namespace priamos::planner {
 
+/// What a way costs beside its length, in metres driven forward.
+struct RouteCosts {
+  double turn_m = 0.15;    ///< turning by a heading of the lattice, 22.5 degrees
+  double sideways = 0.15;  ///< a metre driven backwards costs so much more, sideways half of it
+};
+
 /// From where to where a route is wanted, map frame.
 struct RouteQuery {
   Pose2 start, goal;
@@ -16,8 +22,7 @@ struct RouteQuery {
   double margin_m = 0.1;     ///< least distance to every obstacle ...
   double leaving_m = 0.1;    ///< ... and on the first 40 cm, for a base that stands nearer to one
   double beyond_plan_m = 3;  ///< how far outside the obstacles and both ends it may lead
-  double turn_m = 0.15;      ///< what turning by a heading of the lattice costs, in metres driven forward
-  double sideways = 0.15;    ///< driving backwards costs so much more, sideways half of it
+  RouteCosts costs{};
   int most_poses = 0;  ///< after so many poses the search ends without a route; 0: when there are no more
   std::vector<NarrowPassage> passages{};  ///< through which it may lead although the lattice does not fit
 };

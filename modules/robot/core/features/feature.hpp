@@ -20,6 +20,7 @@ struct Feature {
   /// Of (place of the middle across it, positive to the left; direction) [m, rad].
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();
   double end_sigma_m = 0;
+  bool gone = false;  ///< the sonars saw through it
 
   bool IsPoint() const { return length_m == 0; }
 };

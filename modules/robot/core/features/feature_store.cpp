@@ -53,6 +53,16 @@ void FeatureStore::Note(const Name& name, HeardFeature heard) {
   MakeRoom();
 }
 
+void FeatureStore::NoteGone(int point_number) {
+  const auto id = ids_.find({Kind::kPoint, point_number});
+  const auto entry = id == ids_.end() ? records_.end() : records_.find(id->second);
+  if (entry == records_.end()) return;
+  if (entry->second.batch < 0)
+    records_.erase(entry);
+  else
+    entry->second = {.heard = entry->second.heard, .gone = true};
+}
+
 /// When all ids are used up a new store begins: none ever names two features.
 void FeatureStore::BeginAnew() {
   for (const auto& [id, record] : records_) lost_ += !record.acknowledged;
@@ -81,7 +91,8 @@ std::optional<FeatureBatch> FeatureStore::Next(const Whereabouts& base, Time now
   };
   std::vector<Due> due;
   for (auto& [id, record] : records_) {
-    const Feature feature = InMap(id, record.heard, base, noise_);
+    Feature feature = InMap(id, record.heard, base, noise_);
+    feature.gone = record.gone;
     if (IsDue(record, feature, now)) due.push_back({&record, feature});
   }
   if (due.empty()) return std::nullopt;
@@ -103,7 +114,7 @@ std::optional<FeatureBatch> FeatureStore::Next(const Whereabouts& base, Time now
   FeatureBatch batch{store_, batch_, {}};
   for (Due& d : due) {
     const bool grew = !Ended(*d.record, now);
-    *d.record = {d.record->heard, d.feature, now, batch_, grew, false};
+    *d.record = {d.record->heard, d.feature, now, batch_, grew, false, d.record->gone};
     batch.features.push_back(d.feature);
   }
   return batch;
@@ -111,6 +122,7 @@ std::optional<FeatureBatch> FeatureStore::Next(const Whereabouts& base, Time now
 
 void FeatureStore::Acknowledge(int store, int batch, unsigned earlier) {
   if (store == 0) {
+    std::erase_if(records_, [](const auto& entry) { return entry.second.gone; });
     for (auto& [id, record] : records_) record = {.heard = record.heard};
     return;
   }
@@ -120,10 +132,11 @@ void FeatureStore::Acknowledge(int store, int batch, unsigned earlier) {
     const int before = (batch - record.batch + kBatches) % kBatches;
     if (before == 0 || (before <= 8 && (earlier >> (before - 1)) & 1U)) record.acknowledged = true;
   }
+  std::erase_if(records_, [](const auto& entry) { return entry.second.gone && entry.second.acknowledged; });
 }
 
 bool FeatureStore::IsDue(const Record& record, const Feature& feature, Time now) const {
-  if (!record.told || Differs(record, feature, now)) return true;
+  if (!record.told || (!record.gone && Differs(record, feature, now))) return true;
   return !record.acknowledged && Seconds(now - record.told_at) >= config_.repeat_s;
 }
 

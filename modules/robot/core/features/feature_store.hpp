@@ -44,6 +44,8 @@ class FeatureStore {
   /// Takes a segment or a point that began or changed when the base was at `heard_at`.
   void Note(const FoundSegment& found, const Whereabouts& heard_at);
   void Note(const FoundPoint& found, const Whereabouts& heard_at);
+  /// A point was seen through: whoever was told of it is told that it has gone.
+  void NoteGone(int point_number);
   /// What is to be told now, when the time for a batch has come.
   std::optional<FeatureBatch> Next(const Whereabouts& base, Time now);
   /// The planner has batch `batch`, and of the eight before it those whose bit is set in `earlier` (bit 0:
@@ -62,6 +64,7 @@ class FeatureStore {
     int batch = -1;
     bool grew = true;  ///< at that time
     bool acknowledged = false;
+    bool gone = false;
   };
   /// Walls and points have numbers of their own.
   enum class Kind { kWall, kPoint };

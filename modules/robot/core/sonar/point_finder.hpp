@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bitset>
 #include <deque>
 #include <span>
 #include <vector>
@@ -7,16 +8,20 @@
 #include "common/time.hpp"
 #include "robot/core/sonar/arc_votes.hpp"
 #include "robot/core/sonar/point_fit.hpp"
+#include "robot/core/sonar/waiting_echoes.hpp"
 
 namespace priamos::robot {
 
 /// Which echoes count, and for how long.
 struct PointFinderConfig {
-  double window_m = 3;   ///< an echo is forgotten after the base has driven so far ...
-  double window_s = 30;  ///< ... or after this time
-  int votes = 14;        ///< echoes through one place that are looked at closely
-  double gate_m = 0.03;  ///< an echo so far off is one of a place that is known
-  double keep_m = 6;     ///< a place takes no more after the base has driven so far without hearing it
+  double window_m = 3;     ///< an echo is forgotten after the base has driven so far ...
+  double window_s = 30;    ///< ... or after this time
+  int votes = 14;          ///< echoes through one place that are looked at closely
+  double gate_m = 0.03;    ///< an echo so far off is one of a place that is known
+  double keep_m = 6;       ///< a place takes no more after the base has driven so far without hearing it
+  double through_m = 1.5;  ///< from so near a place is heard by a beam ...
+  double through_deg = 5;  ///< ... that points so near to it
+  int through = 12;        ///< directions, 2 degrees apart, from which beams saw through it: it has gone
   PointFitConfig fit;
 
   void Describe(Archive& a);
@@ -36,30 +41,29 @@ struct FoundPoint {
 /// better by every echo.
 class PointFinder {
  public:
-  explicit PointFinder(const PointFinderConfig& config) : config_(config) {}
+  explicit PointFinder(const PointFinderConfig& config);
 
   /// Takes the echoes of a cycle that no wall explains. Returns the places that began or changed.
   std::vector<const FoundPoint*> Add(std::span<const PlacedEcho> unexplained, Time now);
+  /// Takes all echoes of a cycle. Returns the numbers of places that are none any more: from many directions
+  /// in a row beams that point there heard what is behind. Silence tells nothing, a sensor may be deaf.
+  std::vector<int> SeeThrough(std::span<const PlacedEcho> heard);
 
  private:
-  struct Waiting {
-    Time time{};
-    PlacedEcho echo;
-  };
   struct Point {
     FoundPoint found;
     std::vector<PlacedEcho> echoes;
+    std::bitset<180> seen_through_from{};  ///< directions from it, since it was heard last
   };
   void Forget(Time now, double travel_m);
+  void NoteSight(const PlacedEcho& echo, Point& point) const;
   bool Grow(const PlacedEcho& echo, Time now, std::vector<const FoundPoint*>& changed);
   const FoundPoint* Begin(std::span<const PlacedEcho> newest, Time now);
   Eigen::Vector2d Refined(Eigen::Vector2d place) const;
   std::vector<PlacedEcho> Supporters(const Eigen::Vector2d& place, double gate_m) const;
-  void Release(const Eigen::Vector2d& place);
 
   PointFinderConfig config_;
-  ArcVotes votes_;
-  std::deque<Waiting> waiting_;  ///< oldest first
+  WaitingEchoes<ArcVotes> waiting_;  ///< for a place that explains them
   std::deque<Point> points_;
   int last_number_ = 0;
 };

@@ -31,7 +31,7 @@ void SegmentFinderConfig::Describe(Archive& a) {
 
 SegmentFinder::SegmentFinder(const SegmentFinderConfig& config, const OdometryNoise& noise,
                              const Footprint& footprint)
-    : config_(config), noise_(noise) {
+    : config_(config), noise_(noise), waiting_({config.window_m, config.window_s, kMostWaiting}) {
   for (int i = 0; i < kSonars; ++i)
     base_from_sonar_[static_cast<std::size_t>(i)] = BaseFromSonar(i, footprint.Size());
 }
@@ -42,11 +42,9 @@ std::vector<const FoundSegment*> SegmentFinder::Add(const SonarCycle& cycle, con
   last_base_ = odom_from_base;
   Forget(cycle.time);
   std::vector<const FoundSegment*> changed;
-  unexplained_ = Explain(NewEchoes(cycle, odom_from_base), cycle.time, changed);
-  for (const PlacedEcho& echo : unexplained_) {
-    waiting_.push_back({cycle.time, echo});
-    votes_.Add(echo);
-  }
+  heard_ = NewEchoes(cycle, odom_from_base);
+  unexplained_ = Explain(heard_, cycle.time, changed);
+  for (const PlacedEcho& echo : unexplained_) waiting_.Add(echo, cycle.time);
   for (const PlacedEcho& echo : unexplained_) {
     if (const FoundSegment* found = Begin(echo, cycle.time)) {
       changed.push_back(found);
@@ -92,12 +90,7 @@ std::vector<PlacedEcho> SegmentFinder::Explain(std::vector<PlacedEcho> echoes, T
 }
 
 void SegmentFinder::Forget(Time now) {
-  while (!waiting_.empty() &&
-         (waiting_.size() > kMostWaiting || travel_m_ - waiting_.front().echo.travel_m > config_.window_m ||
-          now - waiting_.front().time > FromSeconds(config_.window_s))) {
-    votes_.Remove(waiting_.front().echo);
-    waiting_.pop_front();
-  }
+  waiting_.Forget(now, travel_m_);
   std::erase_if(segments_, [&](const FoundSegment& found) {
     return !found.wall.grows() || travel_m_ - found.wall.newest().travel_m > config_.keep_m;
   });
@@ -105,7 +98,7 @@ void SegmentFinder::Forget(Time now) {
 
 /// A wall that begins with what the newest echo and those before it show; nullptr when they show none.
 const FoundSegment* SegmentFinder::Begin(const PlacedEcho& newest, Time time) {
-  const VotedLine line = votes_.Best(newest);
+  const VotedLine line = waiting_.votes().Best(newest);
   if (line.votes < config_.votes) return nullptr;
   const auto echoes = Supporters(line, newest);
   if (static_cast<int>(echoes.size()) < config_.votes) return nullptr;
@@ -120,7 +113,7 @@ const FoundSegment* SegmentFinder::Begin(const PlacedEcho& newest, Time time) {
   if (!IsRatherALine(echoes, line.angle_rad)) return nullptr;
   WallSegment wall(config_.segment, noise_, echoes, *fitted);
   if (wall.length_m() < config_.least_m) return nullptr;
-  Release(wall);
+  waiting_.Release([&](const PlacedEcho& echo) { return wall.Takes(echo); });
   segments_.push_back({++last_number_, time, std::move(wall)});
   return &segments_.back();
 }
@@ -140,7 +133,7 @@ std::vector<PlacedEcho> SegmentFinder::Supporters(const VotedLine& line, const P
       along(-normal.y(), normal.x());
   std::vector<std::pair<double, std::size_t>> feet;
   for (std::size_t i = 0; i < waiting_.size(); ++i) {
-    const PlacedEcho& echo = waiting_[i].echo;
+    const PlacedEcho& echo = waiting_[i];
     const Eigen::Vector2d foot = echo.Foot(normal);
     const double off_axis = std::abs(WrapAngle(line.angle_rad - echo.odom_from_sonar.yaw));
     if (std::abs(normal.dot(foot) - line.distance_m) < kNearLine_m &&
@@ -162,17 +155,8 @@ std::vector<PlacedEcho> SegmentFinder::Supporters(const VotedLine& line, const P
   std::sort(together.begin(), together.end());
   std::vector<PlacedEcho> echoes;
   echoes.reserve(together.size());
-  for (const std::size_t index : together) echoes.push_back(waiting_[index].echo);
+  for (const std::size_t index : together) echoes.push_back(waiting_[index]);
   return echoes;
-}
-
-/// What a wall explains waits no more.
-void SegmentFinder::Release(const WallSegment& wall) {
-  std::erase_if(waiting_, [&](const Waiting& waiting) {
-    if (!wall.Takes(waiting.echo)) return false;
-    votes_.Remove(waiting.echo);
-    return true;
-  });
 }
 
 }  // namespace priamos::robot

@@ -9,6 +9,7 @@
 #include "robot/core/base/footprint.hpp"
 #include "robot/core/sonar/line_votes.hpp"
 #include "robot/core/sonar/sonar_cycle.hpp"
+#include "robot/core/sonar/waiting_echoes.hpp"
 #include "robot/core/sonar/wall_segment.hpp"
 
 namespace priamos::robot {
@@ -47,16 +48,14 @@ class SegmentFinder {
   std::vector<const FoundSegment*> Add(const SonarCycle& cycle, const Pose2& odom_from_base);
   /// The segments that still may grow, oldest first.
   const std::deque<FoundSegment>& segments() const { return segments_; }
-  /// The echoes of the last cycle that no segment takes, if they tell anything new.
+  /// The echoes of the last cycle that tell anything new.
+  const std::vector<PlacedEcho>& heard() const { return heard_; }
+  /// Those of them that no segment takes.
   const std::vector<PlacedEcho>& unexplained() const { return unexplained_; }
   /// How far the base has driven [m].
   double travel_m() const { return travel_m_; }
 
  private:
-  struct Waiting {
-    Time time{};
-    PlacedEcho echo;
-  };
   std::vector<PlacedEcho> NewEchoes(const SonarCycle& cycle, const Pose2& odom_from_base);
   std::vector<PlacedEcho> Explain(std::vector<PlacedEcho> echoes, Time time,
                                   std::vector<const FoundSegment*>& changed);
@@ -64,7 +63,6 @@ class SegmentFinder {
   const FoundSegment* Begin(const PlacedEcho& echo, Time time);
   std::vector<PlacedEcho> Supporters(const VotedLine& line, const PlacedEcho& newest) const;
   bool IsRatherALine(const std::vector<PlacedEcho>& echoes, double angle_rad) const;
-  void Release(const WallSegment& wall);
 
   SegmentFinderConfig config_;
   OdometryNoise noise_;
@@ -74,9 +72,8 @@ class SegmentFinder {
   Pose2 last_base_;
   bool moved_before_ = false;
   double travel_m_ = 0;
-  LineVotes votes_;
-  std::deque<Waiting> waiting_;  ///< echoes that no wall explains, oldest first
-  std::vector<PlacedEcho> unexplained_;
+  WaitingEchoes<LineVotes> waiting_;  ///< for a wall that explains them
+  std::vector<PlacedEcho> heard_, unexplained_;
   std::deque<FoundSegment> segments_;
   int last_number_ = 0;
 };

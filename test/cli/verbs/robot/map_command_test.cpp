@@ -48,6 +48,7 @@ class MapCommand : public testing::Test {
     box.kind = "edge";
     box.x_m = 5;
     learned.objects.push_back(box);
+    learned.points = {{3, 0.2, 0.02, 1000, 7}};
     SaveLearnedWalls(file_, learned);
   }
   PriamosAnswer Map(std::vector<std::string> more) {
@@ -67,6 +68,7 @@ TEST_F(MapCommand, ShowsPlanAndLearnedWalls) {
   EXPECT_THAT(answer.out, HasSubstr("wall 1   (3.00, 0.25)  (3.00, 1.75)"));
   EXPECT_THAT(answer.out, HasSubstr("gap 1-2"));
   EXPECT_THAT(answer.out, HasSubstr("thing 3  (4.00, 2.00)  box"));
+  EXPECT_THAT(answer.out, HasSubstr("point 7  (3.00, 0.20)"));
   EXPECT_THAT(answer.out, HasSubstr("⠒")) << "a picture of dots";
 }
 
@@ -78,6 +80,8 @@ TEST_F(MapCommand, JsonHoldsWallsAndGaps) {
   EXPECT_NEAR(map["walls"][0]["to_m"][1].get<double>(), 1.75, 1e-9);
   ASSERT_EQ(map["gaps"].size(), 1u);
   EXPECT_NEAR(map["gaps"][0]["width_m"].get<double>(), 1.0, 1e-9);
+  ASSERT_EQ(map["points"].size(), 1u);
+  EXPECT_EQ(map["points"][0]["at_m"][0], 3);
   ASSERT_EQ(map["things"].size(), 2u);
   EXPECT_EQ(map["things"][0]["kind"], "box");
   EXPECT_EQ(map["things"][0]["front_m"][0], 4);
@@ -89,8 +93,9 @@ TEST_F(MapCommand, DrawsItIntoAFile) {
   EXPECT_EQ(Map({"--file", file_, "--svg", svg}).exit_code, 0);
   const std::string content = FileContent(svg);
   EXPECT_THAT(content, HasSubstr("<svg"));
-  for (const char* layer : {"class=\"wall\"", "class=\"learned-wall\"", "class=\"learned-sigma\"",
-                            "class=\"gap\"", "class=\"seen-thing\"", "class=\"seen-edge\""})
+  for (const char* layer :
+       {"class=\"wall\"", "class=\"learned-wall\"", "class=\"learned-sigma\"", "class=\"gap\"",
+        "class=\"learned-point\"", "class=\"seen-thing\"", "class=\"seen-edge\""})
     EXPECT_THAT(content, HasSubstr(layer));
   EXPECT_THAT(content, HasSubstr("0.60 x 0.40 m, 1.1 m high"));
   const auto refused = Map({"--file", file_, "--svg", (folder_ / "no" / "map.svg").string()});
@@ -130,6 +135,21 @@ TEST_F(MapCommand, AFileThatIsNotThereOrDamagedIsRefused) {
   const auto damaged = Map({"--file", file_});
   EXPECT_EQ(damaged.exit_code, 2);
   EXPECT_THAT(damaged.err, HasSubstr("learned.toml:1:version"));
+}
+
+TEST_F(MapCommand, AnEntryWithoutItsKeysIsRefused) {
+  std::ofstream(file_) << "version = 1\n[[points]]\nx_m = 1\n";
+  const auto damaged = Map({"--file", file_});
+  EXPECT_EQ(damaged.exit_code, 2);
+  EXPECT_THAT(damaged.err,
+              HasSubstr("learned.toml:2:points[0].id: expected the number of the point, got none"));
+}
+
+TEST_F(MapCommand, PointsAloneAreAMap) {
+  LearnedWalls learned;
+  learned.points = {{3, 0.2, 0.02, 1000, 1}};
+  SaveLearnedWalls(file_, learned);
+  EXPECT_EQ(Map({"--file", file_}).exit_code, 0);
 }
 
 TEST_F(MapCommand, AWordTooMuchIsRefused) {

@@ -78,13 +78,13 @@ class Drive {
       const Pose2 truly{middle.x(), middle.y(),
                         std::atan2(along.y(), along.x()) + Radians(0.3) * rng_.Normal(1)};
       const Pose2 told = believed_ * true_.Inverse() * truly;
-      SeenWall seen{1, ++last_id_, false, {}};
-      seen.wall.x_m = told.x;
-      seen.wall.y_m = told.y;
-      seen.wall.yaw_deg = Degrees(told.yaw);
-      seen.wall.length_m = to_m - from_m;
-      seen.wall.seen_s = now_s_;
-      graph.NoteWall(seen);
+      LearnedWall wall;
+      wall.x_m = told.x;
+      wall.y_m = told.y;
+      wall.yaw_deg = Degrees(told.yaw);
+      wall.length_m = to_m - from_m;
+      wall.seen_s = now_s_;
+      graph.Note({1, ++last_id_, wall});
     }
     graph.Settle();
   }

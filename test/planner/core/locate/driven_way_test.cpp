@@ -11,10 +11,9 @@ Time At(double s) {
   return FromUtime(1'000'000'000) + FromSeconds(s);
 }
 
-SeenWall Seen(int id, double s, const LearnedWall& wall) {
-  SeenWall seen{1, id, false, wall};
-  seen.wall.seen_s = 1000 + s;
-  return seen;
+SeenFeature Seen(int id, double s, LearnedWall wall) {
+  wall.seen_s = 1000 + s;
+  return {1, id, wall};
 }
 
 /// A log that begins with the base in (1, 2), looking along y.
@@ -50,39 +49,37 @@ TEST(WayLog, APoseOfBeforeACorrectionDoesNotCount) {
 
 TEST(WayLog, WallsOfBeforeTheBeginningAreLeftOut) {
   WayLog log = Begun();
-  log.OnWall(Seen(1, -5, WallAt(3, 3, 0, 2)));
+  log.OnFeature(Seen(1, -5, WallAt(3, 3, 0, 2)));
   EXPECT_TRUE(log.way().pieces.empty());
-  log.OnWall(Seen(1, 4, WallAt(3, 3, 0, 2)));
+  log.OnFeature(Seen(1, 4, WallAt(3, 3, 0, 2)));
   EXPECT_EQ(log.way().pieces.size(), 1U);
 }
 
 TEST(WayLog, WallsOfBeforeAPoseWasSetAreLeftOutAndThoseAfterItMoved) {
   WayLog log = Begun();
   log.OnPose(At(10), {11, 12, kPi / 2}, At(9));
-  log.OnWall(Seen(1, 5, WallAt(3, 3, 0, 2)));
+  log.OnFeature(Seen(1, 5, WallAt(3, 3, 0, 2)));
   EXPECT_TRUE(log.way().pieces.empty());
-  log.OnWall(Seen(2, 12, WallAt(13, 13, 0, 2)));
+  log.OnFeature(Seen(2, 12, WallAt(13, 13, 0, 2)));
   ASSERT_EQ(log.way().pieces.size(), 1U);
   EXPECT_NEAR(log.way().pieces[0].way_from_middle.x, 3, 1e-9);
 }
 
 TEST(WayLog, AWallThatGrowsIsOneAndOneThatIsGoneIsNone) {
   WayLog log = Begun();
-  log.OnWall(Seen(1, 5, WallAt(3, 3, 0, 1)));
-  log.OnWall(Seen(1, 9, WallAt(3.5, 3, 0, 2)));
+  log.OnFeature(Seen(1, 5, WallAt(3, 3, 0, 1)));
+  log.OnFeature(Seen(1, 9, WallAt(3.5, 3, 0, 2)));
   ASSERT_EQ(log.way().pieces.size(), 1U);
   EXPECT_EQ(log.way().pieces[0].length_m, 2);
-  SeenWall gone = Seen(1, 10, WallAt(3.5, 3, 0, 2));
-  gone.gone = true;
-  log.OnWall(gone);
+  log.OnFeature({1, 1});
   EXPECT_TRUE(log.way().pieces.empty());
 }
 
 TEST(WayLog, TwoNumbersOfOneWallAreOnePiece) {
   WayLog log = Begun();
-  log.OnWall(Seen(1, 5, WallAt(3, 3, 0, 1)));
-  log.OnWall(Seen(2, 6, WallAt(3.4, 3.05, 1, 2)));
-  log.OnWall(Seen(3, 6, WallAt(3.4, 4, 0, 2)));
+  log.OnFeature(Seen(1, 5, WallAt(3, 3, 0, 1)));
+  log.OnFeature(Seen(2, 6, WallAt(3.4, 3.05, 1, 2)));
+  log.OnFeature(Seen(3, 6, WallAt(3.4, 4, 0, 2)));
   EXPECT_EQ(log.way().pieces.size(), 2U);
 }
 

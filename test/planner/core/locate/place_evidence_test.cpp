@@ -56,7 +56,7 @@ struct Evidence {
     wall.yaw_deg = yaw_deg;
     wall.length_m = length_m;
     wall.seen_s = static_cast<double>(ToUtime(now)) * 1e-6;
-    dut->OnWall({1, id, false, wall}, now);
+    dut->OnFeature({1, id, wall}, now);
   }
   GroundPlan plan;
   std::optional<PlaceEvidence> dut;

@@ -14,8 +14,12 @@ namespace {
 using testing::IsEmpty;
 using testing::SizeIs;
 
-SeenWall Seen(int store, int id, const LearnedWall& wall) {
-  return {store, id, false, wall};
+SeenFeature Seen(int store, int id, const LearnedWall& wall) {
+  return {store, id, wall};
+}
+
+SeenFeature PointSeen(int store, int id, double x_m, double y_m = 0) {
+  return {store, id, LearnedPoint{x_m, y_m, 0.02, 1000}};
 }
 
 TEST(LearnedMap, WhatIsToldAgainReplacesWhatWasTold) {
@@ -81,8 +85,7 @@ TEST(LearnedMap, WhatHasGoneIsForgottenAndResetForgetsAll) {
   LearnedMap dut({});
   dut.Take(Seen(1, 1, WallAt(0, 0, 0, 3)));
   dut.Take(Seen(1, 2, WallAt(0, 5, 0, 3)));
-  SeenWall gone = Seen(1, 2, WallAt(0, 5, 0, 3));
-  gone.gone = true;
+  const SeenFeature gone{1, 2};
   EXPECT_TRUE(dut.Take(gone));
   EXPECT_THAT(dut.walls().walls, SizeIs(1));
   EXPECT_FALSE(dut.Take(gone)) << "it is not there any more";
@@ -92,6 +95,50 @@ TEST(LearnedMap, WhatHasGoneIsForgottenAndResetForgetsAll) {
   EXPECT_GT(dut.walls().revision, revision);
   EXPECT_TRUE(dut.Take(Seen(1, 1, WallAt(0, 0, 0, 3))));
   EXPECT_THAT(dut.walls().walls, SizeIs(1));
+}
+
+TEST(LearnedMap, APointThatMovesUnderItsNumberLeavesNoneBehind) {
+  LearnedMap dut({});
+  EXPECT_TRUE(dut.Take(PointSeen(1, 7, 1)));
+  EXPECT_TRUE(dut.Take(PointSeen(1, 8, 3)));
+  EXPECT_TRUE(dut.Take(PointSeen(1, 7, 1.25)));
+  ASSERT_THAT(dut.walls().points, SizeIs(2));
+  EXPECT_EQ(dut.walls().points[0].id, 1);
+  EXPECT_EQ(dut.walls().points[0].x_m, 1.25);
+  EXPECT_EQ(dut.walls().revision, 3);
+}
+
+TEST(LearnedMap, APointThatIsSeenThroughIsNone) {
+  LearnedMap dut({});
+  dut.Take(PointSeen(1, 7, 1));
+  dut.Take(PointSeen(1, 8, 3));
+  EXPECT_FALSE(dut.Take(SeenFeature{2, 7})) << "another store";
+  EXPECT_TRUE(dut.Take(SeenFeature{1, 7}));
+  ASSERT_THAT(dut.walls().points, SizeIs(1));
+  EXPECT_EQ(dut.walls().points[0].x_m, 3);
+  EXPECT_FALSE(dut.Take(SeenFeature{1, 7})) << "it is not there any more";
+}
+
+TEST(LearnedMap, ANumberThatChangesItsKindReplacesWhatItWas) {
+  LearnedMap dut({});
+  dut.Take(Seen(1, 7, WallAt(0, 0, 0, 2)));
+  dut.Take(PointSeen(1, 7, 1));
+  EXPECT_THAT(dut.walls().walls, IsEmpty());
+  EXPECT_THAT(dut.walls().points, SizeIs(1));
+  dut.Take(Seen(1, 7, WallAt(0, 0, 0, 2)));
+  EXPECT_THAT(dut.walls().walls, SizeIs(1));
+  EXPECT_THAT(dut.walls().points, IsEmpty());
+  EXPECT_TRUE(dut.Take(SeenFeature{1, 7}));
+  EXPECT_THAT(dut.walls().walls, IsEmpty());
+}
+
+TEST(LearnedMap, APieceThatBecomesAPointLeavesTheRestOfItsWall) {
+  LearnedMap dut({});
+  dut.Take(Seen(1, 1, WallAt(0, 0, 0, 3)));
+  dut.Take(Seen(1, 2, WallAt(1, 0, 0, 3)));
+  dut.Take(PointSeen(1, 2, 1));
+  EXPECT_THAT(dut.walls().walls, SizeIs(1));
+  EXPECT_THAT(dut.walls().points, SizeIs(1));
 }
 
 TEST(LearnedMap, WhatAFileHoldsIsFoundAgain) {

@@ -35,14 +35,13 @@ struct Story {
     };
   }
   /// In the robot's own frame, which is off when `robot.error` says so.
-  void Tell(const LearnedWall& wall, Time now) {
-    SeenWall seen{1, wall.id, false, wall};
+  void Tell(LearnedWall wall, Time now) {
     const Pose2 at = robot.Believed() * robot.truth().Inverse() * wall.map_from_wall();
-    seen.wall.x_m = at.x;
-    seen.wall.y_m = at.y;
-    seen.wall.yaw_deg = Degrees(at.yaw);
-    seen.wall.seen_s = 1e-6 * static_cast<double>(ToUtime(now));
-    dut.OnTold(seen);
+    wall.x_m = at.x;
+    wall.y_m = at.y;
+    wall.yaw_deg = Degrees(at.yaw);
+    wall.seen_s = 1e-6 * static_cast<double>(ToUtime(now));
+    dut.OnTold({1, wall.id, wall});
   }
   void Run(double seconds) {
     ASSERT_TRUE(dut.Start(robot.now(), {kExplore}));
@@ -89,11 +88,37 @@ TEST(ExploreMissionTest, BeforeThePoseIsKnownNothingIsSent) {
   EXPECT_EQ(s.dut.state().phase, Phase::kWaiting);
 }
 
-TEST(ExploreMissionTest, ARobotThatGetsNowhereEndsWithTheFrontiersThatAreLeft) {
+TEST(ExploreMissionTest, ARobotThatGetsNowhereFailsWithTheFrontiersThatAreLeft) {
   Story s;
   s.robot.blocked = true;
   s.Run(300);
-  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed) << s.dut.state().text;
+  EXPECT_THAT(s.dut.state().text, StartsWith("the base has not moved"));
+  EXPECT_THAT(s.dut.state().text, HasSubstr("frontiers left"));
+}
+
+TEST(ExploreMissionTest, WhoIsShutInByTheMapHasExploredNothing) {
+  Story s;
+  auto learned = std::make_shared<LearnedWalls>();
+  constexpr int kPoints = 30;  // nearer ones would be one
+  for (int i = 0; i < kPoints; ++i) {
+    const double turned = 2 * kPi * i / kPoints;
+    const Eigen::Vector2d at = s.robot.truth().translation() + Pose2{0, 0, turned} * Eigen::Vector2d(1.2, 0);
+    learned->points.push_back({at.x(), at.y(), 0.02, 1000, i + 1});
+  }
+  s.dut.OnLearned(learned);
+  s.Run(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed) << s.dut.state().text;
+  EXPECT_THAT(s.dut.state().text, StartsWith("the base has not moved: nothing more is reached"));
+}
+
+TEST(ExploreMissionTest, WhoCannotMoveAnyMoreHasNotExploredTheFloor) {
+  Story s;
+  s.Run(8);
+  s.robot.blocked = true;
+  s.robot.RunFor(400);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed) << s.dut.state().text;
+  EXPECT_THAT(s.dut.state().text, StartsWith("the base is shut in: nothing more is reached"));
   EXPECT_THAT(s.dut.state().text, HasSubstr("frontiers left"));
 }
 

@@ -64,7 +64,7 @@ struct Kidnapped {
       const LearnedWall before = std::exchange(told[++id], wall);
       if ((before.from() - wall.from()).norm() < 0.05 && (before.to() - wall.to()).norm() < 0.05) continue;
       wall.seen_s = static_cast<double>(ToUtime(robot.now())) * 1e-6;
-      missions.OnTold(SeenWall{1, id, false, wall});
+      missions.OnTold({1, id, wall});
     }
   }
 

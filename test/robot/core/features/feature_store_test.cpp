@@ -50,6 +50,38 @@ TEST_F(FeatureStoreTest, WhatIsNewIsToldOnce) {
   EXPECT_THAT(Told(60, true), testing::UnorderedElementsAre(1, 2, 3, 4));
 }
 
+TEST_F(FeatureStoreTest, WhatHasGoneIsToldUntilItIsAcknowledged) {
+  FoundPoint point;
+  point.number = 1;
+  point.heard = now_;
+  point.fit.covariance *= 1e-4;
+  dut_.Note(point, Base());
+  Hear(1);
+  EXPECT_THAT(Told(20, true), testing::UnorderedElementsAre(1, 2));
+  dut_.NoteGone(1);
+  now_ += FromSeconds(10);
+  const auto batch = dut_.Next(Base(), now_);
+  ASSERT_TRUE(batch);
+  ASSERT_THAT(batch->features, SizeIs(1));
+  EXPECT_EQ(batch->features[0].id, 1);
+  EXPECT_TRUE(batch->features[0].gone);
+  EXPECT_THAT(Told(40, false), testing::Contains(1));
+  Told(20, true);
+  EXPECT_THAT(Told(60, true), IsEmpty());
+  EXPECT_EQ(dut_.size(), 1U) << "the wall";
+}
+
+TEST_F(FeatureStoreTest, WhatHasGoneBeforeItWasToldIsNothing) {
+  FoundPoint point;
+  point.number = 1;
+  point.heard = now_;
+  point.fit.covariance *= 1e-4;
+  dut_.Note(point, Base());
+  dut_.NoteGone(1);
+  dut_.NoteGone(2);
+  EXPECT_THAT(Told(60, true), IsEmpty());
+}
+
 TEST_F(FeatureStoreTest, WhatIsNotAcknowledgedIsToldAgain) {
   Hear(1);
   EXPECT_THAT(Told(50, false), SizeIs(testing::Ge(3u)));

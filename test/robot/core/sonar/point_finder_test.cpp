@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "common/random.hpp"
@@ -32,10 +33,14 @@ class Drive {
       now_ += FromSeconds(0.1);
       const std::vector<PlacedEcho> echoes = Listen({x_, 0, 0});
       for (const FoundPoint* found : dut_.Add(echoes, now_)) this->found[found->number] = *found;
+      for (const int number : dut_.SeeThrough(echoes)) gone.insert(number);
     }
   }
 
+  void From(double x_m) { x_ = x_m; }
+
   std::map<int, FoundPoint> found;  ///< as they were last
+  std::set<int> gone;
 
  private:
   std::vector<PlacedEcho> Listen(const Pose2& base) {
@@ -90,6 +95,41 @@ TEST(PointFinderTest, WhatIsHeardFromOneDirectionOnlyIsNone) {
   drive.points = {{5.5, 0.1}};
   drive.Along(1);
   EXPECT_THAT(drive.found, IsEmpty());
+}
+
+TEST(PointFinderTest, WhatIsSeenThroughHasGone) {
+  Drive drive(6);
+  drive.points = {{2.0, 1.0}};
+  drive.Along(3);
+  ASSERT_THAT(drive.found, SizeIs(1));
+  EXPECT_THAT(drive.gone, IsEmpty());
+  drive.points.clear();
+  for (double x = -1; x < 6; x += 0.05) drive.points.emplace_back(x, 2.5);  // what is heard behind
+  drive.From(1);
+  drive.Along(2);
+  EXPECT_TRUE(drive.gone.contains(1));
+}
+
+TEST(PointFinderTest, WhatStandsIsNotSeenThrough) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    Rng rng(seed);
+    Drive drive(seed);
+    drive.points = {{rng.Uniform(1, 4), rng.Uniform(0.7, 2)}};
+    drive.wall_y = 2.5;
+    drive.Along(6);
+    EXPECT_THAT(drive.gone, IsEmpty()) << seed;
+  }
+}
+
+TEST(PointFinderTest, SilenceTellsNothing) {
+  Drive drive(8);
+  drive.points = {{2.0, 1.0}};
+  drive.Along(3);
+  ASSERT_THAT(drive.found, SizeIs(1));
+  drive.points.clear();
+  drive.From(1);
+  drive.Along(2);
+  EXPECT_THAT(drive.gone, IsEmpty());
 }
 
 TEST(PointFinderTest, WhatMovesIsNone) {
