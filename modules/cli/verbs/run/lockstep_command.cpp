@@ -119,15 +119,18 @@ std::vector<Summary> RunAll(const LockstepOptions& options) {
 int Run(const LockstepOptions& options) {
   RequireWritable(options);
   const std::vector<Summary> all = RunAll(options);
-  int passed = 0, contacts = 0;
+  int passed = 0, contacts = 0, corrections = 0, beyond = 0;
   for (const Summary& summary : all) {
     passed += summary.passed;
     contacts += summary.contacts;
+    corrections += summary.corrections.count;
+    beyond += summary.corrections.beyond_3_sigma;
     if (options.runs == 1) PrintSummary(People(options), summary);
   }
   if (options.json) WriteJson(options.json_file, all);
   if (options.runs > 1)
-    People(options) << fmt::format("{} of {} passed, {} contacts\n", passed, options.runs, contacts);
+    People(options) << fmt::format("{} of {} passed, {} contacts, {} of {} corrections beyond 3 sigmas\n",
+                                   passed, options.runs, contacts, beyond, corrections);
   return passed == options.runs && contacts == 0 ? 0 : 1;
 }
 
