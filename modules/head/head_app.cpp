@@ -212,6 +212,7 @@ void HeadApp::StartNext(Time now) {
   Follow(now);
   if (orders_.empty()) return GlanceAround(now);
   glancing_ = false;  // an order has the head at once
+  if (!following_) beyond_ = follow_.GoesBeyond(ApproachTo(orders_.front(), now));
   if (!beyond_) beyond_at_.reset();
   positioner_.MoveTo(beyond_ ? SettingBeyond(orders_.front(), now) : SettingFor(orders_.front(), now), now);
   looked_at_ = orders_.front();
@@ -420,7 +421,7 @@ void HeadApp::Judge(const StereoDrift& drift) {
   if (was_well && drift_.alarm()) context_.Log(bus::Level::kWarning, drift_.alarm()->ToText());
 }
 
-/// Nobody waits for it. It is answered as a look at the landmark is, but shows nothing of that.
+/// It is answered as a look at the landmark is, but shows nothing of that.
 void HeadApp::AnswerBeyond(const LandmarkFix& fix, Time exposure) {
   LookAnswer answer;
   answer.order = orders_.front();
@@ -428,15 +429,18 @@ void HeadApp::AnswerBeyond(const LandmarkFix& fix, Time exposure) {
   answer.fix = fix;
   orders_.pop_front();
   look_.End();
-  following_ = beyond_ = false;
-  const bool found = fix.verdict == Verdict::kFound;
+  beyond_ = false;
+  const bool followed = std::exchange(following_, false), found = fix.verdict == Verdict::kFound;
   follow_.AnsweredBeyond(found, exposure);
-  if (!found) return;
-  answer.map_from_landmark = models_.at(answer.order.landmark_id).map_from_landmark;
+  if (followed && !found) return;  // nobody waits for it
+  const LookOrder& order = answer.order;
+  answer.map_from_landmark = models_.at(order.landmark_id).map_from_landmark;
   fix_.Publish(ToMessage(answer));
-  context_.Log(bus::Level::kInfo,
-               fmt::format("look {}: beyond landmark {}: {:.2f} deg by {} edges", answer.order.request_id,
-                           answer.order.landmark_id, Degrees(fix.base_from_landmark.yaw), fix.n_matched));
+  const std::string text =
+      found ? fmt::format("{:.2f} deg by {} edges", Degrees(fix.base_from_landmark.yaw), fix.n_matched)
+            : fmt::format("nothing that tells a heading: {}", Describe(fix.verdict));
+  context_.Log(found ? bus::Level::kInfo : bus::Level::kWarning,
+               fmt::format("look {}: beyond landmark {}: {}", order.request_id, order.landmark_id, text));
 }
 
 void HeadApp::Answer(LookAnswer answer) {

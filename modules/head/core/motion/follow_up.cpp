@@ -33,12 +33,18 @@ void FollowUp::AnsweredBeyond(bool found, Time exposure) {
 Following FollowUp::Due(const Approach& approach, Time now) {
   if (!answered_ || Seconds(now - *answered_) < config_.every_s) return Following::kNothing;
   answered_.reset();
-  if (approach.ahead_m >= config_.within_m || approach.ahead_m < -config_.until_m ||
-      approach.speed_m_s <= config_.least_m_s)
-    return Following::kNothing;
-  const bool beyond = approach.sees_beyond && config_.beyond_m > 0;
-  if (beyond && (lost_ || approach.ahead_m < config_.beyond_m)) return Following::kBeyond;
+  if (approach.speed_m_s <= config_.least_m_s || !IsNear(approach)) return Following::kNothing;
+  if (GoesBeyond(approach)) return Following::kBeyond;
   return lost_ ? Following::kNothing : Following::kLandmark;
+}
+
+bool FollowUp::GoesBeyond(const Approach& approach) const {
+  if (!approach.sees_beyond || config_.beyond_m == 0 || missed_ >= kMostMissed) return false;
+  return IsNear(approach) && (lost_ || approach.ahead_m < config_.beyond_m);
+}
+
+bool FollowUp::IsNear(const Approach& approach) const {
+  return approach.ahead_m < config_.within_m && approach.ahead_m >= -config_.until_m;
 }
 
 }  // namespace priamos::head

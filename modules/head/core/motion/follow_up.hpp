@@ -42,8 +42,12 @@ class FollowUp {
   /// What to look at again now; once for each answer. A landmark that is farther away, or before which the
   /// base stands, is not followed until a look that somebody orders has found it again.
   Following Due(const Approach& approach, Time now);
+  /// Whether a look at the landmark, also one that somebody orders, had better go to what stands beyond it.
+  bool GoesBeyond(const Approach& approach) const;
 
  private:
+  bool IsNear(const Approach& approach) const;
+
   FollowConfig config_;
   std::optional<Time> answered_;
   bool lost_ = false;  ///< the landmark was not found by the last look

@@ -75,6 +75,19 @@ TEST(FollowUp, LooksBeyondEndBehindTheLandmarkAndAfterThreeThatToldNothing) {
   EXPECT_EQ(dut.Due(kInDoor, At(6)), kNothing);
 }
 
+TEST(FollowUp, AnOrderedLookGoesBeyondAsWellWhereTheLandmarkCannotBeFound) {
+  constexpr Approach kBefore{0.9, 0.3, true};
+  FollowUp dut({});
+  EXPECT_TRUE(dut.GoesBeyond(kInDoor));
+  EXPECT_FALSE(dut.GoesBeyond(kBlindInDoor));
+  EXPECT_FALSE(dut.GoesBeyond(kBefore));
+  dut.Answered(false, At(1));
+  EXPECT_TRUE(dut.GoesBeyond(kBefore));
+  EXPECT_FALSE(dut.GoesBeyond({1.5, 0.3, true})) << "from there it may be found again";
+  for (int i = 0; i < 3; ++i) dut.AnsweredBeyond(false, At(2 + i));
+  EXPECT_FALSE(dut.GoesBeyond(kBefore)) << "neither the one nor the other";
+}
+
 TEST(FollowUp, LooksBeyondCanBeSwitchedOff) {
   FollowUp dut({.beyond_m = 0});
   dut.Answered(true, At(1));
