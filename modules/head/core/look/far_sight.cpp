@@ -16,9 +16,11 @@ using Row = Eigen::RowVector3d;
 /// An image line that may be a known edge: what the base's heading would be off by, then.
 struct Sighting {
   std::size_t edge = 0, view = 0;
-  double turn_rad = 0;   ///< heading minus the expected one
-  double sigma_rad = 0;  ///< of it, by this line and this edge alone
-  Row by_base;           ///< change of turn_rad by a motion of the base (x, y, yaw); the last is 1
+  double turn_rad = 0;        ///< heading minus the expected one
+  double sigma_rad = 0;       ///< of it, by this line and this edge alone
+  Row by_base = Row::Zero();  ///< change of turn_rad by a motion of the base (x, y, yaw); the last is 1
+  double width_rad = 0;       ///< it agrees with a heading within this
+  double evidence = 0;        ///< of such an agreement, natural logarithm over chance
 };
 
 /// How the landmark in the base frame changes when the base moves (x, y, yaw).
@@ -73,8 +75,16 @@ class Search {
     const CameraView& seen = views_[view];
     const Eigen::Vector3d middle(at.x(), at.y(), (known.bottom_m + known.top_m) / 2);
     if (!(seen.camera->Depth(middle) > 0)) return;
+    const std::size_t first = sightings_.size();
     for (const ViewLine& line : seen.lines)
       if (const auto sighting = SightingOf(edge, view, line, at)) sightings_.push_back(*sighting);
+    // By chance one of these lines lies within the width as often as there are lines in reach.
+    const auto lines = static_cast<double>(sightings_.size() - first);
+    for (std::size_t i = first; i < sightings_.size(); ++i) {
+      Sighting& sighting = sightings_[i];
+      sighting.width_rad = WidthOf(sighting);
+      sighting.evidence = std::max(0.0, std::log(reach_rad_ / (lines * sighting.width_rad)));
+    }
   }
 
   std::optional<Sighting> SightingOf(std::size_t edge, std::size_t view, const ViewLine& line,
@@ -94,7 +104,8 @@ class Search {
     const double offset = line.plane.dot(point.homogeneous());
     const double by_yaw = across.dot(Eigen::Vector2d(at.y(), -at.x()));
     if (std::abs(by_yaw) < 0.1) return std::nullopt;
-    Sighting sighting{edge, view, -offset / by_yaw, 0, Row(-across.x(), -across.y(), by_yaw) / by_yaw};
+    Sighting sighting{.edge = edge, .view = view, .turn_rad = -offset / by_yaw};
+    sighting.by_base = Row(-across.x(), -across.y(), by_yaw) / by_yaw;
     if (std::abs(sighting.turn_rad) > reach_rad_) return std::nullopt;
     sighting.sigma_rad = std::sqrt(VarianceOf(seen, line, point, known)) / std::abs(by_yaw);
     return sighting;
@@ -113,8 +124,7 @@ class Search {
            in_landmark.dot(known.covariance * in_landmark) + Square(options_.place_sigma_m);
   }
 
-  /// Lines agree with a heading within this: parallax that the place's uncertainty explains differs between
-  /// near edges and far ones.
+  /// Parallax that the uncertainty of the place explains differs between near edges and far ones.
   double WidthOf(const Sighting& sighting) const {
     const Row place(sighting.by_base.x(), sighting.by_base.y(), 0);
     const double by_place = place * base_covariance_ * place.transpose();
@@ -126,7 +136,7 @@ class Search {
     std::vector<Sighting> near;
     for (const Sighting& sighting : sightings_) {
       const double off = std::abs(sighting.turn_rad - turn_rad);
-      if (off > WidthOf(sighting)) continue;
+      if (off > sighting.width_rad) continue;
       const bool first =
           near.empty() || near.back().edge != sighting.edge || near.back().view != sighting.view;
       if (first)
@@ -143,15 +153,9 @@ class Search {
     return static_cast<int>(std::ranges::count(seen, true));
   }
 
-  /// By chance a line lies within the width as often as there are lines in reach.
-  double EvidenceFor(const std::vector<Sighting>& near) const {
+  static double EvidenceFor(const std::vector<Sighting>& near) {
     double evidence = 0;
-    for (const Sighting& sighting : near) {
-      const auto lines = std::ranges::count_if(sightings_, [&](const Sighting& other) {
-        return other.edge == sighting.edge && other.view == sighting.view;
-      });
-      evidence += std::max(0.0, std::log(reach_rad_ / (static_cast<double>(lines) * WidthOf(sighting))));
-    }
+    for (const Sighting& sighting : near) evidence += sighting.evidence;
     return evidence;
   }
 
@@ -159,7 +163,7 @@ class Search {
   Peak Best(std::optional<double> other) const {
     Peak best;
     for (const Sighting& candidate : sightings_) {
-      if (other && std::abs(candidate.turn_rad - *other) < 2 * WidthOf(candidate)) continue;
+      if (other && std::abs(candidate.turn_rad - *other) < 2 * candidate.width_rad) continue;
       const double evidence = EvidenceFor(Near(candidate.turn_rad));
       if (evidence > best.evidence) best = {candidate.turn_rad, evidence};
     }
@@ -198,8 +202,9 @@ class Search {
     fix.verdict = Verdict::kFound;
     fix.n_matched = n;
     fix.base_from_landmark = Pose2{0, 0, -turn_rad} * expected_;
+    // What such looks repeat is no more than what slip turns the base between two of them.
     const double variance = own_variance + far_.heading_variance();
-    fix.own_share = own_variance / variance;
+    fix.own_share = 1;
     const double place_m =
         std::max(kLeast_m, kLooser * std::sqrt(base_covariance_.topLeftCorner<2, 2>().trace() / 2));
     Eigen::Matrix3d information = by_base.transpose() * by_base / variance;

@@ -89,8 +89,7 @@ TEST_F(FarSightTest, InTheDoorTheyTellTheHeadingAndNotThePlace) {
   EXPECT_NEAR(fix.base_from_landmark.yaw, kInDoor.yaw, Radians(0.06));
   EXPECT_NEAR(fix.base_from_landmark.y, kInDoor.y, 0.001);
   EXPECT_GT(fix.covariance(0, 0), Square(5 * kSigma_m));
-  EXPECT_GT(fix.own_share, 0);
-  EXPECT_LT(fix.own_share, 1);
+  EXPECT_EQ(fix.own_share, 1);
   // With the place known, the heading is known about as well as by the fix that taught the edges.
   const Eigen::Matrix3d information = fix.covariance.inverse();
   const double sigma = 1 / std::sqrt(information(2, 2));
