@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include "robot/core/pose/joseph.hpp"
@@ -22,53 +21,13 @@ struct SplitFusion {
   }
 };
 
-/// What estimate and measurement may have in common.
+/// Fusion with a fixed `weight` of the estimate, in (0, 1); the measurement has the rest. `own_share`: of its
+/// covariance, independent of all others.
 template <int kRows>
-struct Common {
-  PoseState::Matrix repeated;                         ///< part of the estimate's repeated covariance
-  Eigen::Matrix<double, kRows, kRows> measurement{};  ///< without what tells next to nothing
-};
-
-/// A measurement can repeat only errors that go with the directions that it tells something of. One that
-/// tells a heading alone repeats errors of headings, and of places as far as they go with those; to widen all
-/// the rest for it would throw away what is known of the place. In the other directions it does not count at
-/// all, lest many that tell next to nothing do.
-template <int kRows>
-Common<kRows> CommonOf(const PoseState& prior, const Eigen::Matrix<double, kRows, kRows>& measurement,
-                       const Derivative<kRows>& h) {
-  using Rows = Eigen::Matrix<double, kRows, kRows>;
-  constexpr double kTells = 0.04;  // variance of the state over that of the measurement: sigmas as 1 to 5
-  constexpr double kSilent = 1e6;
-  const Eigen::LLT<Rows> root(measurement);
-  if (root.info() != Eigen::Success) return {prior.repeated, measurement};
-  const Derivative<kRows> whitened = root.matrixL().solve(h);
-  const Eigen::SelfAdjointEigenSolver<Rows> ratios(whitened * prior.covariance * whitened.transpose());
-  const Derivative<kRows> along = ratios.eigenvectors().transpose() * whitened;
-  Common<kRows> common{PoseState::Matrix::Zero(prior.size(), prior.size())};
-  PoseState::Matrix left = prior.repeated;
-  Eigen::Matrix<double, kRows, 1> widened;
-  for (int i = 0; i < kRows; ++i) {
-    const bool tells = ratios.eigenvalues()(i) > kTells;
-    widened(i) = tells ? 1 : kSilent;
-    const PoseState::Vector with = left * along.row(i).transpose();
-    const double variance = along.row(i).dot(with);
-    if (!tells || !(variance > 0)) continue;
-    const PoseState::Matrix part = with * with.transpose() / variance;
-    common.repeated += part;
-    left -= part;
-  }
-  const Rows axes = root.matrixL() * ratios.eigenvectors();
-  common.measurement = axes * widened.asDiagonal() * axes.transpose();
-  return common;
-}
-
-/// Fusion with a fixed `weight` of the estimate, in (0, 1); the measurement has the rest. `own_share`: of the
-/// measurement's covariance, independent of all others.
-template <int kRows>
-SplitFusion<kRows> Weighed(const PoseState& prior, const Common<kRows>& common, double own_share,
-                           double weight) {
-  return {prior.covariance + (1 / weight - 1) * common.repeated,
-          (own_share + (1 - own_share) / (1 - weight)) * common.measurement};
+SplitFusion<kRows> Weighed(const PoseState& prior, const Eigen::Matrix<double, kRows, kRows>& measurement,
+                           double own_share, double weight) {
+  return {prior.covariance + (1 / weight - 1) * prior.repeated,
+          (own_share + (1 - own_share) / (1 - weight)) * measurement};
 }
 
 /// The weight after which the state is known best (golden section over the determinant, whose logarithm is
@@ -80,9 +39,8 @@ SplitFusion<kRows> BestFusion(const PoseState& prior, const Eigen::Matrix<double
   constexpr double kLeast = 1e-4, kGolden = 0.618, kExact = 1e-12;
   constexpr int kSteps = 20;
   if (prior.repeated.isZero(0) || own_share >= 1) return {prior.covariance, measurement};
-  const Common<kRows> common = CommonOf<kRows>(prior, measurement, h);
   const auto spread = [&](double weight) {
-    const auto fusion = Weighed<kRows>(prior, common, own_share, weight);
+    const auto fusion = Weighed<kRows>(prior, measurement, own_share, weight);
     const Matrix after = Joseph<kRows>(fusion.GainFor(h), h, fusion.prior, fusion.measurement);
     return (after + kExact * Matrix::Identity(after.rows(), after.cols())).determinant();
   };
@@ -104,7 +62,7 @@ SplitFusion<kRows> BestFusion(const PoseState& prior, const Eigen::Matrix<double
       at_b = spread(b);
     }
   }
-  return Weighed<kRows>(prior, common, own_share, (low + high) / 2);
+  return Weighed<kRows>(prior, measurement, own_share, (low + high) / 2);
 }
 
 }  // namespace priamos::robot

@@ -106,38 +106,6 @@ TEST(RepeatedSights, ABetterOneOutweighsAWorseOne) {
   EXPECT_LT(dut.pose_covariance().determinant(), 1.2 * alone.pose_covariance().determinant());
 }
 
-/// A sight that tells the heading to 1 mrad, repeating what all of them repeat, and next to nothing of the
-/// place.
-LandmarkMeasurement HeadingAlone() {
-  LandmarkMeasurement sight = SomeSight(0.1);
-  sight.covariance = Eigen::Vector3d(1, 1, 1e-6).asDiagonal();
-  sight.covariance.topRightCorner<2, 1>() << 1e-6, -1e-6;
-  sight.covariance.bottomLeftCorner<1, 2>() << 1e-6, -1e-6;
-  return sight;
-}
-
-TEST(RepeatedSights, ThoseOfTheHeadingAloneLeaveThePlaceAsWellKnownAsItWas) {
-  PoseState dut = Updated(SomeState(), SomeSight(0.02)).state;
-  const Eigen::Matrix3d before = dut.pose_covariance();
-  for (int i = 0; i < 6; ++i) dut = Updated(dut, HeadingAlone()).state;
-  const Eigen::Matrix3d after = dut.pose_covariance();
-  EXPECT_LT(after(2, 2), 0.2 * before(2, 2));
-  EXPECT_GT(after(2, 2), 0.5e-6) << "they repeat each other";
-  for (int axis : {0, 1}) {
-    EXPECT_LT(after(axis, axis), 1.05 * before(axis, axis));
-    EXPECT_GT(after(axis, axis), 0.3 * before(axis, axis)) << "what goes with the heading is known better";
-  }
-}
-
-TEST(RepeatedSights, ManyThatTellNextToNothingTellNothing) {
-  PoseState dut = Updated(SomeState(), SomeSight(0)).state;
-  const Eigen::Matrix3d before = dut.pose_covariance();
-  LandmarkMeasurement vague = SomeSight(0);
-  vague.covariance *= 100;
-  for (int i = 0; i < 50; ++i) dut = Updated(dut, vague).state;
-  EXPECT_GT(dut.pose_covariance().determinant(), 0.99 * before.determinant());
-}
-
 TEST(RepeatedSights, LeaveBothPartsOfTheCovariancePositive) {
   PoseState dut = SomeState();
   for (int i = 0; i < 20; ++i) {
