@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "cli/report/report_belief.hpp"
-#include "cli/report/report_corrections.hpp"
 #include "cli/report/report_corridor.hpp"
 #include "cli/report/report_explore.hpp"
 #include "cli/report/report_found_doors.hpp"
