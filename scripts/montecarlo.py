@@ -130,10 +130,20 @@ def figures(runs):
         nees = [b["nees"] for b in beliefs]
         spread = 1.96 * statistics.pstdev(nees) / math.sqrt(len(nees))
         text.append(f"{'NEES in the door (3 is right)':<36} mean {statistics.mean(nees):.2f} +- {spread:.2f}")
+    text += correction_figures([r["corrections"] for r in runs.values() if r.get("corrections")])
     if passed:
         text.append(f"{'smallest gap':<36} worst {100 * min(r['min_gap_m'] for r in passed):7.2f} cm")
         text.append(f"{'mean speed':<36} median {quantile([r['mean_speed_m_s'] for r in passed], 0.5):7.3f} m/s")
     return text
+
+
+def correction_figures(runs):
+    """Lines of text about how landmark fixes agreed with what the robot expected."""
+    count, beyond = sum(r["count"] for r in runs), sum(r["beyond_3_sigma"] for r in runs)
+    if not count:
+        return []
+    return [f"{'corrections beyond 3 sigmas':<36} {beyond} of {count}, {100 * beyond / count:.2f} %, "
+            f"largest distance {max(r['most_distance'] for r in runs):.1f}"]
 
 
 def floor_figures(floors):

@@ -9,6 +9,7 @@
 
 #include "common/archive.hpp"
 #include "common/robot/camera_bits.hpp"
+#include "head/core/motion/aim_far.hpp"
 #include "head/core/motion/head_stay.hpp"
 #include "head/files/calibration_file.hpp"
 #include "head/vision_options.hpp"
@@ -133,6 +134,24 @@ HeadSetting HeadApp::SettingFor(const LookOrder& order, Time now) const {
   return stays ? positioner_.goal() : setting;
 }
 
+/// To the side on which most of what stands beyond the landmark will be in both pictures; further on as it
+/// was, since turning takes longer than looking.
+HeadSetting HeadApp::SettingBeyond(const LookOrder& order, Time now) {
+  HeadSetting setting = config_.LookSetting();
+  if (beyond_at_) return *beyond_at_;
+  const auto model = models_.find(order.landmark_id);
+  const auto robot = poses_.At(now);
+  if (model == models_.end() || !robot) return setting;
+  const Pose2 base_from_landmark =
+      PredictAhead(*robot, model->second.map_from_landmark, config_.aim.lead_s).base_from_landmark;
+  std::vector<UprightTarget> targets;
+  for (const FarEdge& edge : evaluator_.Beyond(order.landmark_id).edges())
+    targets.push_back({base_from_landmark * edge.at, edge.bottom_m, edge.top_m});
+  setting.pan_rad = AimFar(head_, setting, targets);
+  beyond_at_ = setting;
+  return setting;
+}
+
 void HeadApp::Reconfigure(const HeadConfig& config) {
   config_.aim = config.aim;
   look_.set_config(config.look);
@@ -174,6 +193,7 @@ void HeadApp::TakeMessages(Time now) {
     if (lost_) EndWithoutPictures(now);
     if (std::exchange(following_, false)) {
       orders_.pop_front();  // an order has the head at once
+      beyond_ = false;
       look_.End();
     }
     orders_.push_back(FromMessage(message));
@@ -192,9 +212,11 @@ void HeadApp::StartNext(Time now) {
   Follow(now);
   if (orders_.empty()) return GlanceAround(now);
   glancing_ = false;  // an order has the head at once
-  positioner_.MoveTo(SettingFor(orders_.front(), now), now);
+  if (!following_) beyond_ = follow_.GoesBeyond(ApproachTo(orders_.front(), now));
+  if (!beyond_) beyond_at_.reset();
+  positioner_.MoveTo(beyond_ ? SettingBeyond(orders_.front(), now) : SettingFor(orders_.front(), now), now);
   looked_at_ = orders_.front();
-  look_.Begin(now);
+  beyond_ ? look_.Begin(now, LookSequence::kPair) : look_.Begin(now);
 }
 
 /// Distance of an order's landmark from the base; infinite where nobody knows it.
@@ -205,12 +227,24 @@ double HeadApp::DistanceTo(const LookOrder& order, Time now) const {
   return (robot->map_from_base.Inverse() * model->second.map_from_landmark).translation().norm();
 }
 
-/// Looks again at what was found from near.
+/// Infinitely far where nobody knows the landmark or the pose.
+Approach HeadApp::ApproachTo(const LookOrder& order, Time now) {
+  constexpr std::size_t kEnough = 4;  // three have to agree
+  const auto model = models_.find(order.landmark_id);
+  const auto robot = poses_.At(now);
+  if (model == models_.end() || !robot) return {std::numeric_limits<double>::infinity(), 0, false};
+  const Pose2 at = model->second.map_from_landmark.Inverse() * robot->map_from_base;
+  const double along = std::cos(at.yaw) < 0 ? at.x : -at.x;
+  return {along < 0 ? along : at.translation().norm(), std::hypot(robot->twist.vx, robot->twist.vy),
+          evaluator_.Beyond(order.landmark_id).edges().size() >= kEnough};
+}
+
+/// Looks again at what was found from near, or at what stands beyond it.
 void HeadApp::Follow(Time now) {
   if (!orders_.empty() || !looked_at_) return;
-  const auto robot = poses_.At(now);
-  const double speed_m_s = robot ? std::hypot(robot->twist.vx, robot->twist.vy) : 0;
-  following_ = follow_.Due(DistanceTo(*looked_at_, now), speed_m_s, now);
+  const Following next = follow_.Due(ApproachTo(*looked_at_, now), now);
+  following_ = next != Following::kNothing;
+  beyond_ = next == Following::kBeyond;
   if (following_) orders_.push_back(*looked_at_);
 }
 
@@ -266,6 +300,7 @@ void HeadApp::Look(Time now) {
       return;
     case LookSequence::Action::kGiveUp:
       if (glancing_) return EndGlance();
+      if (beyond_) return AnswerBeyond(NotFound(Verdict::kNoImage, now).fix, now);
       context_.Log(bus::Level::kWarning, positioner_.failed() ? "the head did not reach its setting"
                                                               : "no stereo pair arrived from the cameras");
       look_.End();
@@ -274,6 +309,10 @@ void HeadApp::Look(Time now) {
     case LookSequence::Action::kUseFrames: {
       lost_ = false;
       if (glancing_) return UseGlance();
+      if (beyond_) {
+        const LandmarkFix fix = EvaluateBeyond(look_.frames());
+        return AnswerBeyond(fix, look_.frames()[kLeft].exposure);
+      }
       LookAnswer answer = Evaluate(look_.frames());
       look_.End();
       Answer(std::move(answer));
@@ -326,15 +365,23 @@ void HeadApp::ShowVideo(const FrameNotice& frame) {
   if (const auto picture = cameras_.Read(frame)) video_->Show(frame.exposure, *picture);
 }
 
-LookAnswer HeadApp::Evaluate(const Frames& frames) {
+LookInput HeadApp::InputOf(const Frames& frames) {
   const auto model = models_.find(orders_.front().landmark_id);
+  return {model == models_.end() ? nullptr : &model->second,
+          poses_.At(frames[kLeft].exposure),
+          {Picture(frames[kLeft]), Picture(frames[kRight])},
+          report_->setting,
+          frames.size() > kThird ? Picture(frames[kThird]) : std::nullopt};
+}
+
+LandmarkFix HeadApp::EvaluateBeyond(const Frames& frames) {
+  return evaluator_.SeeBeyond(InputOf(frames));
+}
+
+LookAnswer HeadApp::Evaluate(const Frames& frames) {
   LookAnswer answer;
   answer.exposure = frames[kLeft].exposure;
-  LookResult result = evaluator_.Evaluate({model == models_.end() ? nullptr : &model->second,
-                                           poses_.At(answer.exposure),
-                                           {Picture(frames[kLeft]), Picture(frames[kRight])},
-                                           report_->setting,
-                                           frames.size() > kThird ? Picture(frames[kThird]) : std::nullopt});
+  LookResult result = evaluator_.Evaluate(InputOf(frames));
   answer.fix = std::move(result.fix);
   answer.view = std::move(result.view);
   answer.leaf = result.leaf;
@@ -374,12 +421,35 @@ void HeadApp::Judge(const StereoDrift& drift) {
   if (was_well && drift_.alarm()) context_.Log(bus::Level::kWarning, drift_.alarm()->ToText());
 }
 
+/// It is answered as a look at the landmark is, but shows nothing of that.
+void HeadApp::AnswerBeyond(const LandmarkFix& fix, Time exposure) {
+  LookAnswer answer;
+  answer.order = orders_.front();
+  answer.exposure = exposure;
+  answer.fix = fix;
+  orders_.pop_front();
+  look_.End();
+  beyond_ = false;
+  const bool followed = std::exchange(following_, false), found = fix.verdict == Verdict::kFound;
+  follow_.AnsweredBeyond(found, exposure);
+  if (followed && !found) return;  // nobody waits for it
+  const LookOrder& order = answer.order;
+  answer.map_from_landmark = models_.at(order.landmark_id).map_from_landmark;
+  fix_.Publish(ToMessage(answer));
+  const std::string text =
+      found ? fmt::format("{:.2f} deg by {} edges", Degrees(fix.base_from_landmark.yaw), fix.n_matched)
+            : fmt::format("nothing that tells a heading: {}", Describe(fix.verdict));
+  context_.Log(found ? bus::Level::kInfo : bus::Level::kWarning,
+               fmt::format("look {}: beyond landmark {}: {}", order.request_id, order.landmark_id, text));
+}
+
 void HeadApp::Answer(LookAnswer answer) {
   answer.order = orders_.front();
   orders_.pop_front();
   const LookOrder& order = answer.order;
   const LandmarkFix& fix = answer.fix;
   const bool followed = std::exchange(following_, false), found = fix.verdict == Verdict::kFound;
+  beyond_ = false;
   follow_.Answered(found, answer.exposure);
   if (followed && !found) return;  // nobody waits for it
   if (const auto model = models_.find(order.landmark_id); model != models_.end())

@@ -56,6 +56,7 @@ class HeadApp {
   void TakeMessages(Time now);
   void StartNext(Time now);
   double DistanceTo(const LookOrder& order, Time now) const;
+  Approach ApproachTo(const LookOrder& order, Time now);
   void Follow(Time now);
   void GlanceAround(Time now);
   void EndGlance();
@@ -75,6 +76,10 @@ class HeadApp {
   void Judge(const StereoDrift& drift);
   void ReportHealth();
   HeadSetting SettingFor(const LookOrder& order, Time now) const;
+  HeadSetting SettingBeyond(const LookOrder& order, Time now);
+  LookInput InputOf(const Frames& frames);
+  LandmarkFix EvaluateBeyond(const Frames& frames);
+  void AnswerBeyond(const LandmarkFix& fix, Time exposure);
   void Answer(LookAnswer answer);
 
   HeadConfig config_;
@@ -95,8 +100,10 @@ class HeadApp {
   PoseHistory poses_;
   std::map<int, LandmarkModel> models_;
   std::deque<LookOrder> orders_;
-  bool following_ = false;              ///< the front of orders_ was ordered by nobody
-  std::optional<LookOrder> looked_at_;  ///< for which the head stands as it does; none: for something else
+  bool following_ = false;                ///< the front of orders_ was ordered by nobody
+  bool beyond_ = false;                   ///< and is a look at what stands beyond its landmark
+  std::optional<HeadSetting> beyond_at_;  ///< where the head stands for looks beyond the landmark
+  std::optional<LookOrder> looked_at_;    ///< for which the head stands as it does; none: for something else
   CameraReader cameras_;
   std::optional<PictureFolder> pictures_, kept_;
   int not_kept_ = 0;

@@ -12,6 +12,8 @@ void VisionConfig::Describe(Archive& a) {
   a.Number("breadth_sigma_m", breadth_sigma_m,
            {"m", 0, 0.05, "how well the breadth of landmarks is known: a door's width, with a tape"});
   a.Number("height_sigma_m", height_sigma_m, {"m", 0, 0.05, "and their height"});
+  a.Number("depth_sigma_m", depth_sigma_m,
+           {"m", 0, 0.05, "and how far their faces stand out from the wall, all edges of a face together"});
   a.Number("camera_sigma_px", camera_sigma_px, {"px", 0.01, 5, "how well the cameras are calibrated"});
   a.Number("min_log_odds", min_log_odds,
            {"-", 0, 100, "natural logarithm of the evidence that a fix needs beyond chance"});

@@ -28,6 +28,7 @@ struct VisionConfig {
   double model_sigma_m = 0.005;    ///< how well landmark models are known, each edge and axis
   double breadth_sigma_m = 0.012;  ///< how well the breadth of a landmark is known
   double height_sigma_m = 0.006;   ///< how well its height is known
+  double depth_sigma_m = 0.005;    ///< how well it is known how far its faces stand out
   double camera_sigma_px = 0.05;   ///< how well the cameras are calibrated and the motors return
   double min_log_odds = 7;         ///< evidence wanted beyond chance
   double min_lead = 6;             ///< evidence wanted over the next best pose

@@ -7,6 +7,7 @@ LandmarkFixOptions FinderOptions(const VisionConfig& vision, const HeadModel& he
   options.solver.model_sigma_m = vision.model_sigma_m;
   options.solver.breadth_sigma_m = vision.breadth_sigma_m;
   options.solver.height_sigma_m = vision.height_sigma_m;
+  options.solver.depth_sigma_m = vision.depth_sigma_m;
   options.solver.camera_sigma_px = vision.camera_sigma_px;
   options.solver.base_covariance = head.base_covariance;
   options.stereo.camera_sigma_px = vision.camera_sigma_px;

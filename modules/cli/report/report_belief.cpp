@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "cli/report/report_timeline.hpp"
 #include "common/covariance.hpp"
@@ -20,6 +21,13 @@ const pose_t* NearestPose(const RunRecord& record, std::int64_t utime) {
       std::min_element(record.poses.begin(), record.poses.end(),
                        [&](const pose_t& a, const pose_t& b) { return distance(a) < distance(b); });
   return nearest != record.poses.end() && distance(*nearest) <= kNear_us ? &*nearest : nullptr;
+}
+
+/// A fix that makes no sense as a number is implausible, too, but was never compared: it has no distance.
+bool WasCompared(const pose_correction_t& correction) {
+  if (!std::isfinite(correction.distance)) return false;
+  return correction.verdict == pose_correction_t::APPLIED ||
+         (correction.verdict == pose_correction_t::IMPLAUSIBLE && correction.distance > 0);
 }
 
 }  // namespace
@@ -40,6 +48,23 @@ std::optional<BeliefAtDoor> BeliefAt(const RunRecord& record, const DoorPlan& do
                       .heading_rad = error.z(),
                       .lateral_sigma_m = std::sqrt(across.dot(covariance * across)),
                       .nees = error.dot(root.solve(error))};
+}
+
+CorrectionSummary CorrectionsOf(const RunRecord& record) {
+  CorrectionSummary summary;
+  for (const pose_correction_t& correction : record.corrections) {
+    if (!WasCompared(correction)) continue;
+    ++summary.count;
+    summary.beyond_3_sigma += correction.distance > kThreeSigmas;
+    summary.most_distance = std::max(summary.most_distance, correction.distance);
+  }
+  return summary;
+}
+
+nlohmann::ordered_json ToJson(const CorrectionSummary& corrections) {
+  return {{"count", corrections.count},
+          {"beyond_3_sigma", corrections.beyond_3_sigma},
+          {"most_distance", corrections.most_distance}};
 }
 
 }  // namespace priamos::cli

@@ -208,6 +208,7 @@ Summary Summarise(const RunRecord& record, const RunInfo& info) {
   }
   const RunRecord on_plan = OnPlan(record, info);
   if (crossing) summary.belief_at_door = BeliefAt(on_plan, info.door, crossing->utime);
+  summary.corrections = CorrectionsOf(record);
   summary.corridor = CorridorSummaryOf(record);
   summary.doors = FoundDoorsOf(record, info);
   summary.things = FoundObjectsOf(record, info);
@@ -244,6 +245,7 @@ nlohmann::ordered_json ToJson(const Summary& summary) {
           {"heading_at_door_deg", Json(summary.heading_at_door_deg)},
           {"belief_at_door",
            summary.belief_at_door ? ToJson(*summary.belief_at_door) : nlohmann::ordered_json(nullptr)},
+          {"corrections", ToJson(summary.corrections)},
           {"corridor", summary.corridor ? ToJson(*summary.corridor) : nlohmann::ordered_json(nullptr)},
           {"doors", summary.doors ? ToJson(*summary.doors) : nlohmann::ordered_json(nullptr)},
           {"things", summary.things ? ToJson(*summary.things) : nlohmann::ordered_json(nullptr)},

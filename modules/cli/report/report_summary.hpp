@@ -54,7 +54,8 @@ struct Summary {
   double min_gap_m = 0;               ///< smallest true distance of the footprint to anything
   std::optional<double> lateral_at_door_m;  ///< none when the door was not crossed
   std::optional<double> heading_at_door_deg;
-  std::optional<BeliefAtDoor> belief_at_door;      ///< when it crossed the door
+  std::optional<BeliefAtDoor> belief_at_door;  ///< when it crossed the door
+  CorrectionSummary corrections;
   std::optional<CorridorSummary> corridor;         ///< only of one that follows a corridor
   std::optional<FoundDoors> doors;                 ///< that the head found in passing
   std::optional<FoundObjects> things;              ///< that the head put together; only when any were told

@@ -39,6 +39,9 @@ void PrintDoor(std::ostream& out, const Summary& summary) {
                      Figure(summary.heading_at_door_deg, 1, "{:+.2f} deg"));
   out << fmt::format("  while fixing        {} at least\n",
                      Figure(summary.min_speed_during_fix_m_s, 1, "{:.2f} m/s"));
+  out << fmt::format("  corrections         {}, {} beyond 3 sigmas; largest distance {:.1f}\n",
+                     summary.corrections.count, summary.corrections.beyond_3_sigma,
+                     summary.corrections.most_distance);
 }
 
 void PrintRadio(std::ostream& out, std::string_view title, const RadioSummary& radio) {

@@ -126,6 +126,7 @@ TEST(ReportSummary, JsonHasExactlyTheAgreedKeys) {
                                                  "lateral_at_door_m",
                                                  "heading_at_door_deg",
                                                  "belief_at_door",
+                                                 "corrections",
                                                  "corridor",
                                                  "doors",
                                                  "things",

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <CLI/App.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -121,24 +122,35 @@ std::vector<Summary> RunAll(const LockstepOptions& options) {
   return all;
 }
 
-int Run(const LockstepOptions& options) {
-  RequireWritable(options);
-  const std::vector<Summary> all = RunAll(options);
-  int passed = 0, contacts = 0;
+/// One line about all runs, some of which may not have been driven.
+std::string Together(const std::vector<Summary>& all, int runs) {
+  int passed = 0, contacts = 0, corrections = 0, beyond = 0;
   double least_seen = 1;
   bool explored = false;
   for (const Summary& summary : all) {
     passed += summary.passed;
     contacts += summary.contacts;
+    corrections += summary.corrections.count;
+    beyond += summary.corrections.beyond_3_sigma;
     least_seen = std::min(least_seen, summary.explore ? summary.explore->seen : 1);
     explored = explored || summary.explore;
-    if (options.runs == 1) PrintSummary(People(options), summary);
   }
+  return fmt::format("{} of {} passed, {} contacts, {} of {} corrections beyond 3 sigmas{}", passed, runs,
+                     contacts, beyond, corrections,
+                     explored ? fmt::format(", seen {:.1f} % at least", 100 * least_seen) : "");
+}
+
+int Run(const LockstepOptions& options) {
+  RequireWritable(options);
+  const std::vector<Summary> all = RunAll(options);
   if (options.json) WriteJson(options.json_file, all);
   if (options.runs > 1)
-    People(options) << fmt::format("{} of {} passed, {} contacts{}\n", passed, options.runs, contacts,
-                                   explored ? fmt::format(", seen {:.1f} % at least", 100 * least_seen) : "");
-  return passed == options.runs && contacts == 0 ? 0 : 1;
+    People(options) << Together(all, options.runs) << '\n';
+  else if (!all.empty())
+    PrintSummary(People(options), all.front());
+  const auto passed = std::count_if(
+      all.begin(), all.end(), [](const Summary& summary) { return summary.passed && summary.contacts == 0; });
+  return passed == options.runs ? 0 : 1;
 }
 
 }  // namespace

@@ -15,7 +15,23 @@ double TopOf(const LandmarkModel& model) {
   return top_m;
 }
 
+/// Edges of one depth have its error in common.
+void AddDepth(const LandmarkModel& model, double depth_m2, Eigen::MatrixXd& covariance) {
+  for (std::size_t i = 0; i < model.edges.size(); ++i)
+    for (std::size_t j = 0; j < model.edges.size(); ++j)
+      if (AreInOneDepth(model.edges[i], model.edges[j]))
+        covariance(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * j)) += depth_m2;
+}
+
 }  // namespace
+
+bool AreInOneDepth(const LandmarkEdge& a, const LandmarkEdge& b) {
+  constexpr double kSame_m = 0.001;
+  const auto is_fixed = [](const LandmarkEdge& edge) {
+    return !edge.IsMovable() && std::abs(edge.from.x() - edge.to.x()) < kSame_m;
+  };
+  return is_fixed(a) && is_fixed(b) && std::abs(a.from.x() - b.from.x()) < kSame_m;
+}
 
 Breadth ModelErrors::breadth() const {
   const Eigen::Index last = mean.size() - 1;
@@ -53,6 +69,7 @@ Eigen::MatrixXd ModelVariance::CovarianceFor(const LandmarkModel& model) const {
   variance.tail<1>()(0) = breadth_m2;
   Eigen::MatrixXd covariance = height_m2 * by_height * by_height.transpose();
   covariance.diagonal() += variance;
+  if (depth_m2 > 0) AddDepth(model, depth_m2, covariance);
   return covariance;
 }
 

@@ -16,6 +16,9 @@ struct Breadth {
   double sigma_m = 0;
 };
 
+/// Whether two edges that do not move lie in one upright plane square to x.
+bool AreInOneDepth(const LandmarkEdge& a, const LandmarkEdge& b);
+
 /// What looks showed of the errors of a model, landmark frame [m]: of every edge its own shift (x, y, z), and
 /// last how much broader the landmark is. The covariance has what the looks could not tell: a shift of all
 /// edges alike is one of the landmark.
@@ -37,9 +40,11 @@ EdgeShifts ShiftsOf(const LandmarkModel& model, const Eigen::VectorXd& errors);
 LandmarkModel Shifted(LandmarkModel model, const EdgeShifts& shifts);
 
 /// Variances of the errors that models have before any look: of each edge by itself, of one that moves, of
-/// the breadth and of the height, which lifts all that is level by its share of it.
+/// the breadth, of the height, which lifts all that is level by its share of it, and of the depth, which
+/// moves all edges of one upright plane square to x together: how far a frame stands out from the wall is one
+/// number of a plan, not one of each edge.
 struct ModelVariance {
-  double edge_m2 = 0, movable_m2 = 0, breadth_m2 = 0, height_m2 = 0;
+  double edge_m2 = 0, movable_m2 = 0, breadth_m2 = 0, height_m2 = 0, depth_m2 = 0;
 
   /// In the order of ModelErrors.
   Eigen::MatrixXd CovarianceFor(const LandmarkModel& model) const;

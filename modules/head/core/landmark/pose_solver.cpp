@@ -108,8 +108,10 @@ class Problem {
     const Eigen::MatrixXd& known = model_covariance_;
     const Eigen::Index last = known.cols() - 1;
     const double by_breadth = known(last, last) * ByBreadth(a) * ByBreadth(b);
-    const bool both_level = model_.edges[a.edge].IsLevel() && model_.edges[b.edge].IsLevel();
-    if (!options_.known && a.edge != b.edge && !both_level) return by_breadth;
+    const LandmarkEdge &edge_a = model_.edges[a.edge], &edge_b = model_.edges[b.edge];
+    const bool together = (edge_a.IsLevel() && edge_b.IsLevel()) ||
+                          (options_.depth_sigma_m > 0 && AreInOneDepth(edge_a, edge_b));
+    if (!options_.known && a.edge != b.edge && !together) return by_breadth;
     const Eigen::Vector3d in_a = pose_.linear().transpose() * a.across,
                           in_b = pose_.linear().transpose() * b.across;
     return in_a.dot(known.block<3, 3>(ColumnOf(a.edge), ColumnOf(b.edge)) * in_b) +

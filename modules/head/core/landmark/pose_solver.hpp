@@ -19,6 +19,7 @@ struct PoseSolverOptions {
   double model_sigma_m = 0.0008;  ///< position error of a model edge, each axis
   double breadth_sigma_m = 0;     ///< error of the landmark's breadth: its left and its right side are apart
   double height_sigma_m = 0;      ///< error of its height: all that is level is higher or lower together
+  double depth_sigma_m = 0;       ///< error of the depth of all its edges that lie in one plane square to x
   double tilt_sigma_m = 0.00025;  ///< alignment error of a model edge: at its ends, against its middle
   double movable_sigma_m = 0.01;  ///< position error of a movable part's edge, each axis
   double camera_sigma_px = 0.05;  ///< calibration error of a camera: shift, roll and scale of the image
@@ -34,7 +35,8 @@ struct PoseSolverOptions {
 
   ModelVariance VarianceOfModel() const {
     return {model_sigma_m * model_sigma_m, movable_sigma_m * movable_sigma_m,
-            breadth_sigma_m * breadth_sigma_m, height_sigma_m * height_sigma_m};
+            breadth_sigma_m * breadth_sigma_m, height_sigma_m * height_sigma_m,
+            depth_sigma_m * depth_sigma_m};
   }
 };
 

@@ -12,6 +12,8 @@
 #include "head/core/landmark/landmark_fix.hpp"
 #include "head/core/landmark/landmark_view.hpp"
 #include "head/core/landmark/pose_history.hpp"
+#include "head/core/look/far_edges.hpp"
+#include "head/core/look/far_sight.hpp"
 #include "head/core/look/landmark_memory.hpp"
 #include "head/core/scene/scene_objects.hpp"
 
@@ -43,6 +45,8 @@ struct LookOptions {
   LeafOptions leaf;
   StereoDriftOptions drift;
   SceneOptions scene;
+  FarEdgeOptions far;
+  FarSightOptions far_sight;
 };
 
 /// Evaluates looks: edges of all images, undistorted once, then the landmark, a door's leaf, its view and
@@ -55,18 +59,29 @@ class LookEvaluator {
   /// Evaluates one look. The verdict of an incomplete input is kNoModel, kNoPose or kNoImage (an image lost,
   /// smaller than 64x64 px, or taken at a setting outside of the calibration), in this order.
   LookResult Evaluate(const LookInput& input);
+  /// Evaluates a look at what earlier looks showed beyond the landmark. Its fix tells the direction of the
+  /// landmark, and next to nothing of its place (SeeFar).
+  LandmarkFix SeeBeyond(const LookInput& input);
+  /// What looks showed beyond a landmark.
+  const FarEdges& Beyond(int landmark_id) {
+    return far_.try_emplace(landmark_id, far_options_).first->second;
+  }
 
  private:
+  std::optional<StereoViews> ViewsOf(const LookInput& input, std::array<CameraModel, 2>& cameras);
   std::optional<CameraModel> ThirdCamera(const LookInput& input);
 
   HeadModel head_;
   LeafOptions leaf_options_;
   StereoDriftOptions drift_options_;
   SceneOptions scene_options_;
+  FarEdgeOptions far_options_;
+  FarSightOptions far_sight_;
   EdgeOperator edge_operator_;
   LandmarkFinder finder_;
   std::array<EdgeImage, kCameras> edges_;
   std::map<int, LandmarkMemory> known_;  ///< by the landmark's id
+  std::map<int, FarEdges> far_;          ///< likewise
 };
 
 }  // namespace priamos::head

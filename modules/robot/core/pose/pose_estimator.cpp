@@ -127,6 +127,9 @@ FixResult PoseEstimator::Apply(const LandmarkFix& fix) {
     result.at_picture = EstimateAt(entry);
     result.reason = fmt::format("distance {:.1f} from the estimate, allowed {:.1f}", update.distance,
                                 config_.gate_distance);
+    // Right or wrong, it makes the estimate more cautious: wheels that slip more than is known make right
+    // ones implausible, and nothing but fixes tells that they do.
+    if (update.distance < 2 * config_.gate_distance) LearnSlip(index, fix);
     return result;
   }
   result.verdict = FixVerdict::kApplied;
@@ -146,7 +149,7 @@ FixResult PoseEstimator::Apply(const LandmarkFix& fix) {
     result.at_picture = EstimateAt(entry);
     Replay(index + 1);
   }
-  LearnSlip(index);
+  LearnSlip(index, fix);
   return result;
 }
 
@@ -194,12 +197,13 @@ double OwnVariance(const LandmarkFix& fix) {
 
 }  // namespace
 
-/// By a fix that was applied at an entry, and the one before it.
-void PoseEstimator::LearnSlip(std::size_t index) {
+/// By a fix at an entry, and the one before it; of one that was refused the next one learns nothing.
+void PoseEstimator::LearnSlip(std::size_t index, const LandmarkFix& fix) {
   constexpr double kMostSigma_rad = Radians(0.3), kMostTurn_rad = 0.1, kLeast_m = 0.03, kMost_m = 1.5;
-  const LandmarkFix fix = *history_[index].fix;
   if (fix.covariance(2, 2) > kMostSigma_rad * kMostSigma_rad) return;
-  const auto before = std::exchange(learnt_, fix);
+  const std::optional<LandmarkFix> before = learnt_;
+  const Entry& entry = history_[index];
+  if (entry.fix && entry.fix->exposure == fix.exposure) learnt_ = fix;
   if (!before || before->exposure >= fix.exposure || before->exposure < history_.front().step.to) return;
   WheelsBetween wheels;
   for (std::size_t i = 0; i <= index; ++i)

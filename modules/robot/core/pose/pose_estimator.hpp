@@ -138,7 +138,7 @@ class PoseEstimator {
   LandmarkMeasurement MeasurementOf(const LandmarkFix& fix) const;
   std::size_t EntryAt(Time time);
   void Replay(std::size_t from);
-  void LearnSlip(std::size_t index);
+  void LearnSlip(std::size_t index, const LandmarkFix& fix);
   void ComparePlan(std::size_t index);
   void TakeUp(const PoseState& state, const WallSeen& seen, Entry& entry);
   PoseEstimate EstimateAt(const Entry& entry) const;

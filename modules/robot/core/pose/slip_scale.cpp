@@ -8,8 +8,8 @@
 namespace priamos::robot {
 namespace {
 
-/// Of the logarithm of the factor: the wheels slip less or more by e^0.5 = 1.6.
-constexpr double kPriorSigma = 1, kPriorMean = -kPriorSigma * kPriorSigma / 2;
+/// Of the logarithm of the factor: wheels slip half as much as configured, or three times.
+constexpr double kPriorSigma = 1.25, kPriorMean = 0;
 constexpr double kFirst = -2, kStep = 0.16;     ///< logarithms: from 1/2.7 to 4 times the slip
 constexpr double kTurnSigma_rad_per_m = 0.004;  ///< constant, and unknown
 
@@ -24,6 +24,7 @@ void SlipScale::Add(double change_rad, double by_slip, double by_fixes, double f
     const double variance = std::exp(LogFactor(k)) * by_slip + by_fixes;
     // Written so that NaN is refused.
     if (!(variance > 0) || !std::isfinite(change_rad)) return;
+    told_ = true;
     Evidence& e = evidence_[static_cast<std::size_t>(k)];
     e.log_variances += std::log(variance);
     e.squares += Square(change_rad) / variance;
@@ -42,6 +43,7 @@ double SlipScale::LogPosterior(int k) const {
 }
 
 double SlipScale::factor() const {
+  if (!told_) return 1;
   std::array<double, kFactors> log_posterior{};
   for (int k = 0; k < kFactors; ++k) log_posterior[static_cast<std::size_t>(k)] = LogPosterior(k);
   const double most = *std::ranges::max_element(log_posterior);

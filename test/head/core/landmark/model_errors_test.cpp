@@ -55,6 +55,19 @@ TEST(ModelErrors, AHigherLandmarkLiftsAllThatIsLevelByItsShare) {
   EXPECT_EQ(dut(9, 12), 0);
 }
 
+TEST(ModelErrors, EdgesOfOneFaceStandOutTogether) {
+  LandmarkModel model = ThreeEdges();  // the third one moves
+  model.edges.push_back({{0.1, -1, 0}, {0.1, -1, 2}});
+  ModelVariance before = kBefore;
+  before.depth_m2 = 9e-6;
+  const Eigen::MatrixXd dut = before.CovarianceFor(model);
+  EXPECT_NEAR(dut(0, 0), kBefore.edge_m2 + 9e-6, 1e-12);
+  EXPECT_NEAR(dut(0, 3), 9e-6, 1e-12);
+  EXPECT_EQ(dut(0, 6), 0) << "a leaf's edge does not belong to the face";
+  EXPECT_EQ(dut(0, 9), 0) << "another face";
+  EXPECT_EQ(dut(1, 4), 0) << "along x only";
+}
+
 TEST(ModelErrors, ALeafMayHaveBeenMovedAndTheRestStays) {
   const LandmarkModel model = ThreeEdges();
   const ModelErrors known = Known(model, 0.001), dut = CarriedOver(known, model, kBefore);

@@ -187,5 +187,30 @@ TEST_F(LookEvaluatorTest, OfEarlierLooksOnlyWhereEdgesLieAndTheBreadthIsRemember
   EXPECT_LT((again.drift->turn_rad - first.drift->turn_rad).norm(), 1e-4);
 }
 
+TEST_F(LookEvaluatorTest, ALookBeyondNeedsAModelAPoseAndPicturesAndSomethingThatIsKnownThere) {
+  LookInput input = Look(head_, test::DoorQuads());
+  EXPECT_EQ(dut_.SeeBeyond(input).verdict, Verdict::kTooFewEdges);
+  input.images[1].reset();
+  EXPECT_EQ(dut_.SeeBeyond(input).verdict, Verdict::kNoImage);
+  input.robot.reset();
+  EXPECT_EQ(dut_.SeeBeyond(input).verdict, Verdict::kNoPose);
+  input.model = nullptr;
+  EXPECT_EQ(dut_.SeeBeyond(input).verdict, Verdict::kNoModel);
+}
+
+TEST_F(LookEvaluatorTest, WhatALookShowedBeyondADoorTellsTheHeading) {
+  std::vector<test::Quad> quads = test::DoorQuads();
+  for (const double y : {-0.55, -0.1, 0.3})
+    quads.push_back({{3.9, y, 0.8}, {0, 0.2 + y * y, 0}, {0, 0, 0.9}, 90});
+  LookInput input = Look(head_, quads);
+  ASSERT_EQ(dut_.Evaluate(input).fix.verdict, Verdict::kFound);
+  ASSERT_GE(dut_.Beyond(model_.id).edges().size(), 3u);
+  input.robot->map_from_base = (Pose2{0, 0, Radians(0.4)} * kTruth).Inverse();
+  input.robot->covariance = Eigen::Vector3d(25e-6, 25e-6, 25e-6).asDiagonal();
+  const LandmarkFix dut = dut_.SeeBeyond(input);
+  ASSERT_EQ(dut.verdict, Verdict::kFound);
+  EXPECT_NEAR(dut.base_from_landmark.yaw, kTruth.yaw, Radians(0.15));
+}
+
 }  // namespace
 }  // namespace priamos::head
