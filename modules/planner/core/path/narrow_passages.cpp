@@ -69,6 +69,20 @@ NarrowPassage PassageBetween(const Rectangle& a, const Rectangle& b) {
   return passage;
 }
 
+/// The obstacles whose boxes are no farther apart: a sweep along x, for a building has a thousand of them.
+std::vector<std::pair<std::size_t, std::size_t>> PairsWithin(const ObstacleMap& obstacles, double most_m) {
+  std::vector<std::pair<Eigen::AlignedBox2d, std::size_t>> boxes;
+  for (std::size_t i = 0; i < obstacles.size(); ++i) boxes.emplace_back(obstacles.BoundsOf(i), i);
+  std::sort(boxes.begin(), boxes.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.first.min().x(), a.second) < std::pair(b.first.min().x(), b.second);
+  });
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (auto a = boxes.begin(); a != boxes.end(); ++a)
+    for (auto b = a + 1; b != boxes.end() && b->first.min().x() - a->first.max().x() <= most_m; ++b)
+      if (a->first.exteriorDistance(b->first) <= most_m) pairs.emplace_back(a->second, b->second);
+  return pairs;
+}
+
 bool AreOne(const NarrowPassage& a, const NarrowPassage& b) {
   const Pose2 there = a.map_from_passage.Inverse() * b.map_from_passage;
   const double turned = std::abs(WrapAngle(there.yaw));
@@ -97,15 +111,13 @@ bool NarrowPassage::Holds(const Vector2d& from, const Vector2d& to, double half_
 
 std::vector<NarrowPassage> NarrowPassagesOf(const ObstacleMap& obstacles, double least_m, double most_m) {
   std::vector<NarrowPassage> passages;
-  for (std::size_t i = 0; i < obstacles.size(); ++i)
-    for (std::size_t k = i + 1; k < obstacles.size(); ++k) {
-      if (obstacles.BoundsOf(i).exteriorDistance(obstacles.BoundsOf(k)) > most_m) continue;
-      const NarrowPassage passage = PassageBetween(obstacles.ShapeOf(i), obstacles.ShapeOf(k));
-      if (passage.width_m < least_m || passage.width_m > most_m) continue;
-      const Rectangle middle{passage.map_from_passage, {0, 0}};
-      if (obstacles.NearestTo(middle).distance_m >= passage.width_m / 2 - kAsNear_m)
-        passages.push_back(passage);
-    }
+  for (const auto& [i, k] : PairsWithin(obstacles, most_m)) {
+    const NarrowPassage passage = PassageBetween(obstacles.ShapeOf(i), obstacles.ShapeOf(k));
+    if (passage.width_m < least_m || passage.width_m > most_m) continue;
+    const Rectangle middle{passage.map_from_passage, {0, 0}};
+    if (obstacles.NearestTo(middle).distance_m >= passage.width_m / 2 - kAsNear_m)
+      passages.push_back(passage);
+  }
   std::stable_sort(passages.begin(), passages.end(),
                    [](const NarrowPassage& a, const NarrowPassage& b) { return a.width_m < b.width_m; });
   std::vector<NarrowPassage> narrowest;
