@@ -24,6 +24,8 @@ constexpr double kNear_m = 0.4, kNearWall = 0.5;  ///< so near to an obstacle dr
 constexpr double kGreed = 1.4;
 /// From the start any lattice pose so near can be the first one.
 constexpr double kFirst_m = 0.4;
+/// A passage so long to either side of its middle is a corridor.
+constexpr double kCorridor_m = 0.5;
 /// From the start the end of a lane can be the first pose that is so near, and from its end any lattice pose.
 constexpr double kFirstLane_m = 1.5, kBesideLane_m = 0.15;
 
@@ -126,10 +128,11 @@ class Search {
     if (cost < cost_[to] && space_.IsFree(from.pose, there, margin_m)) Reach(to, cost, from.index);
   }
 
-  /// What has a lane is passed on it.
+  /// An opening that has a lane is passed on it; in a corridor routes begin and end anywhere.
   bool IsBarred(const Pose2& from, const Pose2& to) const {
     return std::any_of(lanes_.begin(), lanes_.end(), [&](const PassageLane& lane) {
-      return lane.passage.IsCrossedBy(from.translation(), to.translation());
+      return lane.passage.half_long_m < kCorridor_m &&
+             lane.passage.IsCrossedBy(from.translation(), to.translation());
     });
   }
 

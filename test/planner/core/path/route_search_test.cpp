@@ -94,6 +94,18 @@ TEST(SearchRouteTest, WhoStandsInANarrowPassageDrivesOn) {
   EXPECT_TRUE(SearchRoute(space, query));
 }
 
+TEST(SearchRouteTest, InANarrowCorridorItNeedNotDriveToItsEnds) {
+  ObstacleMap map{GroundPlan{}};
+  for (const double side : {1.0, -1.0}) map.Add("wall", {{0, side * 0.7, 0}, {8, 0.05}});  // 1.3 m
+  const SweptFootprint space(Footprint{}, map);
+  RouteQuery query{.start = {-2, 0.02, 0}, .goal = {2, 0, 0}};
+  query.passages = NarrowPassagesOf(map, 0.98, 1.4);
+  EXPECT_EQ(query.passages.size(), 1U);
+  const auto dut = SearchRoute(space, query);
+  ASSERT_TRUE(dut);
+  EXPECT_LT(LengthOf(*dut), 4.3);
+}
+
 TEST(SearchRouteTest, WhereNoWayLeadsThereIsNone) {
   EXPECT_FALSE(SearchRoute(SpaceOf(ShippedPlan()), {.start = {1, 2.4, 0}, .goal = {8, 2.4, 0}}));
   EXPECT_FALSE(SearchRoute(SpaceOf(ShippedPlan()), {.start = {1, 2.4, 0}, .goal = {4, 0.2, 0}}));
