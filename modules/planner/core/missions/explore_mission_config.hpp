@@ -23,8 +23,10 @@ struct ExploreMissionConfig {
   MissionLimits limits{.resend_path_s = 4, .blocked_s = 1.5, .silent_s = 8, .limit_s = 3600};
   /// Who has many frontiers does not search for one for long. Among walls that are not known it does not
   /// turn: sonars hear what its sides face, and a corner swings into what they do not.
-  RoutePlannerConfig route{
-      .least_leeway_m = kLeastLeeway_m, .costs = {.turn_m = 0.6, .sideways = 0}, .most_poses = 60000};
+  RoutePlannerConfig route{.least_margin_m = 0.08,
+                           .least_leeway_m = kLeastLeeway_m,
+                           .costs = {.turn_m = 0.6, .sideways = 0},
+                           .most_poses = 60000};
   ExplorationConfig choice;
   FloorGraphConfig graph;
 
