@@ -68,7 +68,8 @@ FeatureStore& FeatureReporter::Store(Time now) {
 std::vector<const FoundSegment*> FeatureReporter::Hear(const SonarCycle& cycle, const Localiser& localiser,
                                                        Time now) {
   if (!localiser.estimate()) return {};
-  auto changed = finder_.Add(cycle, localiser.OdometryPoseAt(cycle.time));
+  auto changed = finder_.Add(cycle, localiser.OdometryPoseAt(cycle.time),
+                             [&](const PlacedEcho& echo) { return points_.Explains(echo); });
   for (const FoundSegment* found : changed) Store(now).Note(*found, BaseBy(localiser));
   for (const FoundPoint* found : points_.Add(finder_.unexplained(), cycle.time))
     Store(now).Note(*found, BaseBy(localiser));

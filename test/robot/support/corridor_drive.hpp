@@ -22,13 +22,15 @@ class CorridorDrive {
         odometry_(OdometryConfig{}, MecanumGeometry{}),
         dut_(config, OdometryNoise{}, Footprint{}) {}
 
+  SegmentFinder::OfPoint of_point{};  ///< which echoes can be of a known point
+
   void Drive(const Twist2& twist, double seconds) {
     for (int i = 0; i < seconds * 50; ++i) {
       base_.Command(ToWheelSpeeds({}, twist), base_.now());
       base_.Advance(std::chrono::milliseconds(20));
       odometry_.Add(base_.Read(), base_.now());
       if (++tick_ % 5 != 0) continue;
-      for (const FoundSegment* found : dut_.Add(Listen(), odometry_.pose())) {
+      for (const FoundSegment* found : dut_.Add(Listen(), odometry_.pose(), of_point)) {
         found_.insert_or_assign(found->number, *found);
         true_base_.insert_or_assign(found->number, base_.truth());
       }

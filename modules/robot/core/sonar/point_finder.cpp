@@ -46,6 +46,12 @@ std::vector<const FoundPoint*> PointFinder::Add(std::span<const PlacedEcho> unex
   return changed;
 }
 
+bool PointFinder::Explains(const PlacedEcho& echo) const {
+  return std::any_of(points_.begin(), points_.end(), [&](const Point& point) {
+    return MayComeFrom(echo, point.found.fit.at, config_.gate_m, config_.fit);
+  });
+}
+
 std::vector<int> PointFinder::SeeThrough(std::span<const PlacedEcho> heard) {
   std::vector<int> gone;
   for (Point& point : points_) {

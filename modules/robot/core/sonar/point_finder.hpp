@@ -45,6 +45,8 @@ class PointFinder {
 
   /// Takes the echoes of a cycle that no wall explains. Returns the places that began or changed.
   std::vector<const FoundPoint*> Add(std::span<const PlacedEcho> unexplained, Time now);
+  /// Whether an echo can be one of a place that is known.
+  bool Explains(const PlacedEcho& echo) const;
   /// Takes all echoes of a cycle. Returns the numbers of places that are none any more: from many directions
   /// in a row beams that point there heard what is behind. Silence tells nothing, a sensor may be deaf.
   std::vector<int> SeeThrough(std::span<const PlacedEcho> heard);

@@ -36,14 +36,15 @@ SegmentFinder::SegmentFinder(const SegmentFinderConfig& config, const OdometryNo
     base_from_sonar_[static_cast<std::size_t>(i)] = BaseFromSonar(i, footprint.Size());
 }
 
-std::vector<const FoundSegment*> SegmentFinder::Add(const SonarCycle& cycle, const Pose2& odom_from_base) {
+std::vector<const FoundSegment*> SegmentFinder::Add(const SonarCycle& cycle, const Pose2& odom_from_base,
+                                                    const OfPoint& of_point) {
   if (std::exchange(moved_before_, true))
     travel_m_ += (odom_from_base.translation() - last_base_.translation()).norm();
   last_base_ = odom_from_base;
   Forget(cycle.time);
   std::vector<const FoundSegment*> changed;
   heard_ = NewEchoes(cycle, odom_from_base);
-  unexplained_ = Explain(heard_, cycle.time, changed);
+  unexplained_ = Explain(heard_, cycle.time, of_point, changed);
   for (const PlacedEcho& echo : unexplained_) waiting_.Add(echo, cycle.time);
   for (const PlacedEcho& echo : unexplained_) {
     if (const FoundSegment* found = Begin(echo, cycle.time)) {
@@ -75,9 +76,12 @@ std::vector<PlacedEcho> SegmentFinder::NewEchoes(const SonarCycle& cycle, const 
 
 /// Gives each echo to the newest wall that takes it. Returns the others.
 std::vector<PlacedEcho> SegmentFinder::Explain(std::vector<PlacedEcho> echoes, Time time,
+                                               const OfPoint& of_point,
                                                std::vector<const FoundSegment*>& changed) {
   for (auto found = segments_.rbegin(); found != segments_.rend(); ++found) {
-    const auto is_other = [&](const PlacedEcho& echo) { return !found->wall.Takes(echo); };
+    const auto is_other = [&](const PlacedEcho& echo) {
+      return !found->wall.Takes(echo) || (of_point && found->wall.EndsBefore(echo) && of_point(echo));
+    };
     const auto own = std::partition(echoes.begin(), echoes.end(), is_other);
     if (own == echoes.end()) continue;
     if (found->wall.Add({own, echoes.end()})) {

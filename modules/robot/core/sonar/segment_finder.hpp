@@ -2,6 +2,7 @@
 
 #include <array>
 #include <deque>
+#include <functional>
 #include <vector>
 
 #include "common/archive.hpp"
@@ -44,8 +45,12 @@ class SegmentFinder {
  public:
   SegmentFinder(const SegmentFinderConfig& config, const OdometryNoise& noise, const Footprint& footprint);
 
-  /// Adds a cycle of the ring. `odom_from_base`: pose at its end. Returns the segments that changed.
-  std::vector<const FoundSegment*> Add(const SonarCycle& cycle, const Pose2& odom_from_base);
+  /// Whether an echo can be one of a corner or an edge that is known.
+  using OfPoint = std::function<bool(const PlacedEcho&)>;
+  /// Adds a cycle of the ring. `odom_from_base`: pose at its end. Returns the segments that changed. What can
+  /// be of a point makes no wall longer: the edges of an opening lie on the line of the wall beside it.
+  std::vector<const FoundSegment*> Add(const SonarCycle& cycle, const Pose2& odom_from_base,
+                                       const OfPoint& of_point = {});
   /// The segments that still may grow, oldest first.
   const std::deque<FoundSegment>& segments() const { return segments_; }
   /// The echoes of the last cycle that tell anything new.
@@ -57,7 +62,7 @@ class SegmentFinder {
 
  private:
   std::vector<PlacedEcho> NewEchoes(const SonarCycle& cycle, const Pose2& odom_from_base);
-  std::vector<PlacedEcho> Explain(std::vector<PlacedEcho> echoes, Time time,
+  std::vector<PlacedEcho> Explain(std::vector<PlacedEcho> echoes, Time time, const OfPoint& of_point,
                                   std::vector<const FoundSegment*>& changed);
   void Forget(Time now);
   const FoundSegment* Begin(const PlacedEcho& echo, Time time);

@@ -144,6 +144,12 @@ bool WallSegment::Takes(const PlacedEcho& echo) const {
   return std::abs(residual) <= config_.gate * std::sqrt(variance);
 }
 
+bool WallSegment::EndsBefore(const PlacedEcho& echo) const {
+  const Eigen::Vector2d along = line_.along();
+  const double at_m = along.dot(echo.odom_from_sonar.translation());
+  return at_m < along.dot(from_.heard) || at_m > along.dot(to_.heard);
+}
+
 bool WallSegment::Add(const std::vector<PlacedEcho>& echoes) {
   std::vector<PlacedEcho> all = echoes_;
   all.insert(all.end(), echoes.begin(), echoes.end());

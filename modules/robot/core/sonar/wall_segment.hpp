@@ -67,6 +67,8 @@ class WallSegment {
 
   /// Whether an echo is one of this wall, at its ends or between them.
   bool Takes(const PlacedEcho& echo) const;
+  /// Whether the wall would be longer with an echo.
+  bool EndsBefore(const PlacedEcho& echo) const;
   /// Takes the echoes of a cycle, each of which it Takes(), and fits the line anew. Returns false when the
   /// wall is straight no longer: then it stays as it was and grows no more.
   bool Add(const std::vector<PlacedEcho>& echoes);

@@ -56,6 +56,16 @@ TEST(SegmentFinder, ADoorwayLeavesAGap) {
   EXPECT_NEAR(begin_m, 3.0, 3 * behind.end_sigma_m());
 }
 
+TEST(SegmentFinder, WhatCanBeOfAnEdgeMakesNoWallLonger) {
+  CorridorDrive drive(1, {}, {kLeft});
+  drive.Drive({0.3, 0, 0}, 6);
+  ASSERT_THAT(drive.found(), SizeIs(1));
+  const double length_m = drive.found().at(1).wall.length_m();
+  drive.of_point = [](const PlacedEcho&) { return true; };
+  drive.Drive({0.3, 0, 0}, 1.5);
+  EXPECT_NEAR(drive.found().at(1).wall.length_m(), length_m, 0.05);
+}
+
 TEST(SegmentFinder, ColumnsAndPostsAreNoWalls) {
   std::vector<Surface> posts;
   for (double x = 0; x < 10; x += 1.1)
