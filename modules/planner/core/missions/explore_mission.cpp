@@ -355,17 +355,15 @@ std::string ExploreMission::Left() const {
 }
 
 /// Why what was seen is no exploration; empty: it is one.
-std::string ExploreMission::WhyNothing(const Pose2& base) const {
+std::string ExploreMission::WhyNothing() const {
   const double reached_m = exploration_.reached_m();
   if (reached_m < kMovesAtLeast_m) return "the base has not moved";
   if (exploration_.left().empty()) return "";
-  if (reached_m < kLeavesAtLeast_m) return "the base has not left where it began";
-  const bool here = stopped_at_ && (base.translation() - *stopped_at_).norm() < kSamePlace_m;
-  return here && stops_here_ > kMostStopsHere ? "the base is shut in" : "";
+  return reached_m < kLeavesAtLeast_m ? "the base has not left where it began" : "";
 }
 
 void ExploreMission::Finish(MissionControl& control) {
-  const std::string nothing = WhyNothing(BaseOf(control));
+  const std::string nothing = WhyNothing();
   const std::string seen =
       fmt::format("explored {:.0f} m2 in {:.0f} s, {:.0f} m driven{}", exploration_.grid().free_m2(),
                   Seconds(control.now() - control.started()), exploration_.driven_m(), Left());

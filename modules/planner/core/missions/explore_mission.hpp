@@ -60,7 +60,7 @@ class ExploreMission : public Mission {
   Outcome<PlannedPath> WayTo(const Pose2& base, const FrontierGoal& frontier);
   void DriveTo(MissionControl& control, const FrontierGoal& frontier, PlannedPath path);
   void Finish(MissionControl& control);
-  std::string WhyNothing(const Pose2& base) const;
+  std::string WhyNothing() const;
   void End(MissionControl& control);
   bool IsVague(const MissionControl& control) const;
   void Place(MissionControl& control);
