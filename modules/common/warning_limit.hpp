@@ -14,7 +14,7 @@ namespace priamos {
 /// one a second at most; what is left out in between is counted, and told with the next one or by itself.
 class WarningLimit {
  public:
-  /// The sentence that is to be told of this warning; nullopt: it is left out.
+  /// The sentence to log for this warning; nullopt: it is left out.
   std::optional<std::string> Take(std::string_view topic, std::string_view warning, Time now);
   /// Of each topic of which something was left out a second ago and more, how many.
   std::vector<std::string> LeftOut(Time now);

@@ -310,7 +310,7 @@ void HeadApp::Look(Time now) {
       lost_ = false;
       if (glancing_) return UseGlance();
       if (beyond_) {
-        const LandmarkFix fix = EvaluateBeyond(look_.frames());
+        const LandmarkFix fix = evaluator_.SeeBeyond(InputOf(look_.frames()));
         return AnswerBeyond(fix, look_.frames()[kLeft].exposure);
       }
       LookAnswer answer = Evaluate(look_.frames());
@@ -372,10 +372,6 @@ LookInput HeadApp::InputOf(const Frames& frames) {
           {Picture(frames[kLeft]), Picture(frames[kRight])},
           report_->setting,
           frames.size() > kThird ? Picture(frames[kThird]) : std::nullopt};
-}
-
-LandmarkFix HeadApp::EvaluateBeyond(const Frames& frames) {
-  return evaluator_.SeeBeyond(InputOf(frames));
 }
 
 LookAnswer HeadApp::Evaluate(const Frames& frames) {

@@ -78,7 +78,6 @@ class HeadApp {
   HeadSetting SettingFor(const LookOrder& order, Time now) const;
   HeadSetting SettingBeyond(const LookOrder& order, Time now);
   LookInput InputOf(const Frames& frames);
-  LandmarkFix EvaluateBeyond(const Frames& frames);
   void AnswerBeyond(const LandmarkFix& fix, Time exposure);
   void Answer(LookAnswer answer);
 

@@ -24,7 +24,7 @@ inline constexpr std::size_t kMostPoints = 1000;
 /// Points nearer to each other are one.
 inline constexpr double kSamePoint_m = 0.2;
 
-/// Enters what a robot tells of a point: it replaces the nearest one that is the same by its place, and has
+/// Enters a point that a robot reports: it replaces the nearest one that is the same by its place, and has
 /// its number, or is one more. `told.id` is ignored. Of more than kMostPoints that goes which was not heard
 /// for longest. Returns the point's number.
 int EnterPoint(const LearnedPoint& told, std::vector<LearnedPoint>& points);

@@ -81,7 +81,7 @@ class LookEvaluator {
   LandmarkFinder finder_;
   std::array<EdgeImage, kCameras> edges_;
   std::map<int, LandmarkMemory> known_;  ///< by the landmark's id
-  std::map<int, FarEdges> far_;          ///< likewise
+  std::map<int, FarEdges> far_;          ///< by the landmark's id, too
 };
 
 }  // namespace priamos::head

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -57,6 +58,16 @@ class ExploredGrid {
   }
   Eigen::Vector2i CellOf(const Eigen::Vector2d& in_map) const;
   double free_m2() const;
+  /// Calls `visit(index, distance_m)` for each cell around a place, as far as `reach_m` along either axis and
+  /// inside of the grid; the distance is that of its middle.
+  template <class Visit>
+  void VisitAround(const Eigen::Vector2d& in_map, double reach_m, const Visit& visit) const {
+    const int reach = static_cast<int>(std::ceil(reach_m / kStep_m));
+    const Eigen::Vector2i at = CellOf(in_map);
+    for (int y = at.y() - reach; y <= at.y() + reach; ++y)
+      for (int x = at.x() - reach; x <= at.x() + reach; ++x)
+        if (Holds(x, y)) visit(IndexOf(x, y), (PlaceOf(x, y) - in_map).norm());
+  }
   /// Corners and edges: in the way, but they hide nothing, and their places are known better than cells.
   const std::vector<Eigen::Vector2d>& edges() const { return edges_; }
   /// Where walls were taken to go on although nobody told so.

@@ -48,14 +48,9 @@ void GridWays::Spread(std::vector<float>& distance_m, const std::vector<std::siz
 }
 
 void GridWays::KeepOff(const Eigen::Vector2d& edge) {
-  const int reach = static_cast<int>(kClearEnough_m / ExploredGrid::kStep_m);
-  const Eigen::Vector2i at = grid_->CellOf(edge);
-  for (int y = at.y() - reach; y <= at.y() + reach; ++y)
-    for (int x = at.x() - reach; x <= at.x() + reach; ++x) {
-      if (!grid_->Holds(x, y)) continue;
-      float& clearance_m = clearance_m_[grid_->IndexOf(x, y)];
-      clearance_m = std::min(clearance_m, static_cast<float>((grid_->PlaceOf(x, y) - edge).norm()));
-    }
+  grid_->VisitAround(edge, kClearEnough_m, [&](std::size_t index, double distance_m) {
+    clearance_m_[index] = std::min(clearance_m_[index], static_cast<float>(distance_m));
+  });
 }
 
 GridWays::GridWays(const ExploredGrid& grid, const Eigen::Vector2d& from, double clearance_m)
@@ -84,6 +79,7 @@ std::vector<double> GridWays::WaysFrom(const Eigen::Vector2i& from,
     return grid_->At(x, y) == Cell::kFree && clearance_m_[grid_->IndexOf(x, y)] >= least_m_;
   });
   std::vector<double> ways;
+  ways.reserve(places.size());
   for (const Eigen::Vector2i& place : places) ways.push_back(way_m[grid_->IndexOf(place.x(), place.y())]);
   return ways;
 }

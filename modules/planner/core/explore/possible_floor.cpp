@@ -56,22 +56,14 @@ std::vector<Vector2i> ClosedCells(const ExploredGrid& grid) {
   return closed;
 }
 
-/// Takes the places where the middle of the base would be too near to an edge.
-void BarAround(const Vector2d& edge, const ExploredGrid& grid, double clearance_m,
-               std::vector<bool>& barred) {
-  const int reach = static_cast<int>(std::ceil(clearance_m / ExploredGrid::kStep_m));
-  const Vector2i at = grid.CellOf(edge);
-  for (int y = at.y() - reach; y <= at.y() + reach; ++y)
-    for (int x = at.x() - reach; x <= at.x() + reach; ++x)
-      if (grid.Holds(x, y) && (grid.PlaceOf(x, y) - edge).norm() < clearance_m)
-        barred[grid.IndexOf(x, y)] = true;
-}
-
 /// Where the middle of the base gets from where it was.
 std::vector<Vector2i> MiddlesFrom(const ExploredGrid& grid, const std::vector<Vector2d>& trail,
                                   double clearance_m) {
   std::vector<bool> barred = Widened(grid, ClosedCells(grid), clearance_m);
-  for (const Vector2d& edge : grid.edges()) BarAround(edge, grid, clearance_m, barred);
+  for (const Vector2d& edge : grid.edges())
+    grid.VisitAround(edge, clearance_m, [&](std::size_t index, double distance_m) {
+      if (distance_m < clearance_m) barred[index] = true;
+    });
   std::vector<Vector2i> middles;
   for (const Vector2d& place : trail) {
     const Vector2i at = grid.CellOf(place);
