@@ -63,18 +63,13 @@ void DoorMissionConfig::Describe(Archive& a) {
            {"m", 0, 10, "distance to the door up to which looks while passing stay on one side"});
   a.Number("confirm_to_m", confirm_to_m,
            {"m", 0, 10, "distance to the door down to which looks go on while passing"});
-  a.Number("last_look_m", last_look_m,
-           {"m", 0, 10, "distance to the door from which the last look is expected"});
-  a.Number("commit_m", commit_m,
-           {"m", 0, 10, "distance to the door at which the pose is judged for the last time"});
-  a.Number("tracking_m", tracking_m, {"m", 0, 0.1, "what the path following may deviate in the door"});
   a.Number("command_delay_s", command_delay_s, {"s", 0, 2, "from a decision here to the wheels there"});
   a.Number("evidence_s", evidence_s,
            {"s", 0, 60, "wait behind the door for the sonars' report of an opening"});
   a.Integer("retries", retries, {"-", 0, 10, "tries after an obstacle in the door"});
   limits.Describe(a);
   a.Section("look", look, "looks at the sides of the door");
-  a.Section("drift", drift, "what the wheels add on the way to the door");
+  passage.Describe(a);
 }
 
 DoorMission::DoorMission(const DoorMissionConfig& config, const DoorPlannerConfig& planner,
@@ -83,7 +78,8 @@ DoorMission::DoorMission(const DoorMissionConfig& config, const DoorPlannerConfi
       planner_(planner, footprint, plan),
       footprint_(footprint),
       plan_(plan),
-      looks_(config.look) {}
+      looks_(config.look),
+      decision_(config.passage, footprint) {}
 
 std::optional<Refusal> DoorMission::Start(const MissionOrder& order) {
   front_ = plan_.FindDoor(order.landmark_id);
@@ -225,45 +221,40 @@ void DoorMission::LookAtDoor(MissionControl& control) {
     control.Fail(fmt::format("{} looks failed, the last one: {}", looks_.failures(), looks_.trouble()));
 }
 
-std::string DoorMission::Prospect::Text() const {
-  return fmt::format("2 sigma at the door {:.3f} m and {:.1f} degrees", 2 * uncertainty.lateral_sigma_m,
-                     Degrees(2 * uncertainty.heading_sigma_rad));
-}
-
-DoorMission::Prospect DoorMission::ProspectFrom(const MissionControl& control, double last_look_m) const {
-  const RobotPose& pose = *control.heard().pose;
-  const double distance_m = std::clamp(DistanceToDoor(control), 0.0, last_look_m);
-  const Pose2 there = door_->map_from_door() * Pose2{-distance_m, 0, 0};
-  const auto uncertainty = AtDoor(*door_, there, pose.covariance, config_.drift);
-  return {uncertainty, GapLeft(*door_, footprint_, uncertainty, config_.tracking_m)};
-}
-
 void DoorMission::EvaluatePose(MissionControl& control) {
-  const Prospect prospect = ProspectFrom(control, config_.last_look_m);
-  if (prospect.gap_m < 0) {
+  const auto prospect =
+      decision_.Expect(*door_, control.heard().pose->covariance, DistanceToDoor(control));
+  if (!prospect.Fits()) {
     if (LooksUsedUp()) control.Fail(kTooUncertain + prospect.Text());
     return;
   }
-  const auto path = planner_.PlanPassage(*door_, PredictedPose(control));
-  if (!path) return control.Fail(path.reason());
-  control.OrderPath(*path, config_.speed_m_s);
+  if (!SetOut(control, config_.speed_m_s)) return;
   control.Enter(Phase::kPassing, "passing the door: " + prospect.Text());
-  committed_ = false;
+  decision_.Begin();
+}
+
+bool DoorMission::SetOut(MissionControl& control, double speed_m_s) {
+  const auto path = planner_.PlanPassage(*door_, PredictedPose(control));
+  path ? control.OrderPath(*path, speed_m_s) : control.Fail(path.reason());
+  return static_cast<bool>(path);
 }
 
 /// The looks on the way may have been worse than expected; the last place from which it can go back.
 void DoorMission::Commit(MissionControl& control, double distance_m) {
-  if (committed_ || distance_m > config_.commit_m) return;
-  committed_ = true;
-  const Prospect prospect = ProspectFrom(control, distance_m);
-  if (prospect.gap_m < 0) OnStop(control, {Stop::Cause::kUncertain, kTooUncertain + prospect.Text()});
+  const Eigen::Matrix3d& covariance = control.heard().pose->covariance;
+  const PassageStep step = decision_.Next(*door_, covariance, distance_m);
+  if (step == PassageStep::kSlowDown) SetOut(control, config_.slowest_m_s);
+  if (step == PassageStep::kGoBack)
+    OnStop(control,
+           {Stop::Cause::kUncertain,
+            kTooUncertain + decision_.Expect(*door_, covariance, distance_m, distance_m).Text()});
 }
 
 void DoorMission::Pass(MissionControl& control) {
   SettleLook(control);
   const double distance_m = DistanceToDoor(control);
-  if (distance_m > config_.confirm_to_m && looks_.Ready(control.now()) && !looks_.Exhausted()) {
-    if (distance_m < config_.one_side_m) looks_.StayOnSide(distance_m < config_.commit_m);
+  if (distance_m > config_.confirm_to_m && looks_.Ready(control.now()) && !looks_.FailedTooOften()) {
+    if (distance_m < config_.one_side_m) looks_.StayOnSide(distance_m < config_.passage.commit_m);
     AskLook(control);
   }
   Commit(control, distance_m);

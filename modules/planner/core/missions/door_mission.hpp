@@ -8,8 +8,8 @@
 #include "planner/core/missions/leaf_belief.hpp"
 #include "planner/core/missions/look_sequence.hpp"
 #include "planner/core/missions/mission.hpp"
+#include "planner/core/missions/passage_decision.hpp"
 #include "planner/core/path/door_planner.hpp"
-#include "planner/core/path/passage_uncertainty.hpp"
 
 namespace priamos::planner {
 
@@ -22,15 +22,12 @@ struct DoorMissionConfig {
   double looks_take_s = 3.5;  ///< ... and how long that takes, starting and radio included
   double one_side_m = 1.8;    ///< nearer, a picture holds one side only: looks stay on one
   double confirm_to_m = 0.7;  ///< looks go on to here while passing; nearer, the head follows the door itself
-  double last_look_m = 1.0;   ///< from here the last look is expected: what the wheels add counts from there
-  double commit_m = 0.85;  ///< here the pose is judged for the last time, before the base is in the opening
-  double tracking_m = 0.005;     ///< largest deviation of the path following in the door
   double command_delay_s = 0.2;  ///< from a decision here to the wheels there
   double evidence_s = 4;         ///< how long the sonars' report of the opening may be on its way
   int retries = 1;               ///< how often it tries again after an obstacle in the door
   MissionLimits limits;
   LookConfig look;
-  DriftModel drift;
+  PassageRules passage;
 
   void Describe(Archive& a);
 };
@@ -56,7 +53,10 @@ class DoorMission : public Mission {
   void Step(MissionControl& control) override;
   void OnStop(MissionControl& control, const Stop& stop) override;
   /// Changes speeds, distances and times; what was ordered with others stays.
-  void set_config(const DoorMissionConfig& config) { config_ = config; }
+  void set_config(const DoorMissionConfig& config) {
+    config_ = config;
+    decision_.set_rules(config.passage);
+  }
   const MissionLimits& limits() const override { return config_.limits; }
   std::string Unfinished() const override { return "not through the door"; }
 
@@ -67,16 +67,9 @@ class DoorMission : public Mission {
   bool FromBehind() const { return front_ && door_->id != front_->id; }
   void Approach(MissionControl& control);
   void LookAtDoor(MissionControl& control);
-  /// The pose's uncertainty in the plane of the door, and what it leaves of the gap there.
-  struct Prospect {
-    PassageUncertainty uncertainty;
-    double gap_m = 0;
-
-    std::string Text() const;
-  };
-  /// The prospect if looks go on to `last_look_m` before the door.
-  Prospect ProspectFrom(const MissionControl& control, double last_look_m) const;
   void EvaluatePose(MissionControl& control);
+  /// Orders the path through the door; false: there is none, and the mission has failed.
+  bool SetOut(MissionControl& control, double speed_m_s);
   void Commit(MissionControl& control, double distance_m);
   void Pass(MissionControl& control);
   void Arrive(MissionControl& control);
@@ -108,12 +101,12 @@ class DoorMission : public Mission {
   std::optional<DoorPlan> door_;     ///< ... as it is from where the robot comes
   Time entered_{};                   ///< when the approach began
   LookSequence looks_;
+  PassageDecision decision_;
   LeafBelief leaf_;
   std::optional<Time> arrived_;  ///< when it was behind the door by its pose
   int blocked_ = 0;              ///< how often it was blocked in the door
   Stop stopped_by_;              ///< what stopped it in the door
   bool give_up_ = false;         ///< it does not try again
-  bool committed_ = false;       ///< the base may enter the opening
   bool at_hold_ = false;         ///< it waits at the hold point: a look from there is not like those before
   bool judge_ = false;           ///< enough looks have succeeded: the next pose is to be judged
 };

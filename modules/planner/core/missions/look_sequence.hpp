@@ -43,8 +43,10 @@ class LookSequence {
 
   /// Whether both sides were seen, or one of them three times while the other could not be.
   bool Enough() const;
+  /// Whether too many looks failed.
+  bool FailedTooOften() const { return failures_ >= config_.failures; }
   /// Whether too many looks failed, or too many succeeded without being good enough.
-  bool Exhausted() const { return failures_ >= config_.failures || good_[0] + good_[1] >= config_.looks; }
+  bool Exhausted() const { return FailedTooOften() || good_[0] + good_[1] >= config_.looks; }
   int failures() const { return failures_; }
   /// Counts anew: what was tried so far says nothing about the next looks.
   void ForgetFailures() { failures_ = 0; }

@@ -365,6 +365,21 @@ TEST(DoorMission, NearTheDoorLooksStayOnOneSide) {
   EXPECT_GE(near, 1);
 }
 
+TEST(DoorMission, ABaseThatWaitedLongInTheApproachStillLooks) {
+  Story s;
+  s.Start();
+  s.robot.RunUntil(Phase::kPassing);
+  s.robot.blocked = true;
+  const std::size_t before = s.robot.looks.size();
+  s.robot.RunFor(7);
+  s.robot.blocked = false;
+  const std::size_t waiting = s.robot.looks.size();
+  s.robot.RunFor(60);
+  EXPECT_GT(waiting, before);
+  EXPECT_GT(s.robot.looks.size(), waiting + 1) << "looks that succeeded were counted as used up";
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+}
+
 TEST(DoorMission, APoseThatGrewUncertainOnTheWayTurnsBackBeforeTheOpening) {
   Story s;
   s.Start();
@@ -381,7 +396,7 @@ TEST(DoorMission, APoseThatGrewUncertainOnTheWayTurnsBackBeforeTheOpening) {
 
 TEST(DoorMission, DoesNotPlanWithAPoseFromBeforeTheCorrection) {
   DoorMissionConfig config;
-  config.drift = {0, 0, 0};
+  config.passage.drift = {.yaw_rad_per_sqrt_m = 0, .lateral_m_per_sqrt_m = 0};
   Story s({2.0, 2.4, 0}, ShippedPlan(), config);
   s.robot.sigma_m = s.robot.sigma_after_m;
   s.robot.sigma_yaw_rad = s.robot.sigma_yaw_after_rad;
@@ -399,7 +414,7 @@ TEST(DoorMission, DoesNotPlanWithAPoseFromBeforeTheCorrection) {
 
 TEST(DoorMission, APoseHardlyYoungerThanTheCorrectionMayBeFromBeforeIt) {
   DoorMissionConfig config;
-  config.drift = {0, 0, 0};
+  config.passage.drift = {.yaw_rad_per_sqrt_m = 0, .lateral_m_per_sqrt_m = 0};
   Story s({2.0, 2.4, 0}, ShippedPlan(), config);
   s.Start();
   s.robot.RunUntil(Phase::kLookingRight);
