@@ -222,8 +222,7 @@ void DoorMission::LookAtDoor(MissionControl& control) {
 }
 
 void DoorMission::EvaluatePose(MissionControl& control) {
-  const auto prospect =
-      decision_.Expect(*door_, control.heard().pose->covariance, DistanceToDoor(control));
+  const auto prospect = decision_.Expect(*door_, control.heard().pose->covariance, DistanceToDoor(control));
   if (!prospect.Fits()) {
     if (LooksUsedUp()) control.Fail(kTooUncertain + prospect.Text());
     return;
@@ -245,9 +244,8 @@ void DoorMission::Commit(MissionControl& control, double distance_m) {
   const PassageStep step = decision_.Next(*door_, covariance, distance_m);
   if (step == PassageStep::kSlowDown) SetOut(control, config_.slowest_m_s);
   if (step == PassageStep::kGoBack)
-    OnStop(control,
-           {Stop::Cause::kUncertain,
-            kTooUncertain + decision_.Expect(*door_, covariance, distance_m, distance_m).Text()});
+    OnStop(control, {Stop::Cause::kUncertain,
+                     kTooUncertain + decision_.Expect(*door_, covariance, distance_m, distance_m).Text()});
 }
 
 void DoorMission::Pass(MissionControl& control) {

@@ -12,7 +12,8 @@ void PassageRules::Describe(Archive& a) {
   a.Number("commit_m", commit_m,
            {"m", 0, 10, "distance to the door at which the pose is judged for the last time"});
   a.Number("slow_commit_m", slow_commit_m,
-           {"m", 0, 10, "the same for a base that drives slowest_m_s, as it does where looks from nearer would do"});
+           {"m", 0, 10,
+            "the same for a base that drives slowest_m_s, as it does where looks from nearer would do"});
   if (slow_commit_m > commit_m) a.Refuse("slow_commit_m", "at most commit_m");
   a.Number("tracking_m", tracking_m, {"m", 0, 0.1, "what the path following may deviate in the door"});
   a.Section("drift", drift, "what the wheels add on the way to the door");

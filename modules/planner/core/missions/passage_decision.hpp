@@ -10,7 +10,8 @@
 
 namespace priamos::planner {
 
-/// Where the pose is judged on the way through a door. Distances are from the base centre to the door's plane.
+/// Where the pose is judged on the way through a door. Distances are from the base centre to the door's
+/// plane.
 struct PassageRules {
   double last_look_m = 0.75;  ///< from here the last look is expected: what the wheels add counts from there
   double commit_m = 0.85;     ///< from here a base at full speed can still end before the opening
@@ -45,8 +46,8 @@ class PassageDecision {
 
   void set_rules(const PassageRules& rules) { rules_ = rules; }
 
-  /// The prospect for a base `distance_m` before the plane of the door whose pose has this covariance (map: x,
-  /// y, yaw), if looks keep it as good down to `last_look_m`.
+  /// The prospect for a base `distance_m` before the plane of the door whose pose has this covariance (map:
+  /// x, y, yaw), if looks keep it as good down to `last_look_m`.
   PassageProspect Expect(const DoorPlan& door, const Eigen::Matrix3d& covariance, double distance_m,
                          double last_look_m) const;
   /// The same, for setting out.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/principal_axes.hpp"
+#include "robot/core/pose/wheels_between.hpp"
 
 namespace priamos::robot {
 namespace {
@@ -115,74 +116,58 @@ Pose2 PoseEstimator::Reset(const KnownPose& known) {
 FixResult PoseEstimator::Apply(const LandmarkFix& fix) {
   if (const auto refused = RefuseByForm(fix)) return *refused;
   const std::size_t index = EntryAt(fix.exposure);
-  Entry& entry = history_[index];
-  const MeasurementUpdate update = Updated(entry.state, MeasurementOf(fix));
+  MeasurementUpdate update = Updated(history_[index].state, MeasurementOf(fix));
+  const bool plausible = update.distance <= config_.gate_distance;
+  LearnSlip(index, fix, update.distance);
+  if (!plausible && Doubt(index)) update = Updated(history_[index].state, MeasurementOf(fix));
 
   FixResult result;
   result.distance = update.distance;
-  result.change = ChangeOf(entry.state.pose(), update.state.pose());
+  result.change = ChangeOf(history_[index].state.pose(), update.state.pose());
   // Written so that NaN is refused.
   if (!(update.distance <= config_.gate_distance)) {
     result.verdict = FixVerdict::kImplausible;
-    result.at_picture = EstimateAt(entry);
+    result.at_picture = EstimateAt(history_[index]);
     result.reason = fmt::format("distance {:.1f} from the estimate, allowed {:.1f}", update.distance,
                                 config_.gate_distance);
-    // Right or wrong, it makes the estimate more cautious: wheels that slip more than is known make right
-    // ones implausible, and nothing but fixes tells that they do.
-    if (update.distance < 2 * config_.gate_distance) LearnSlip(index, fix);
     return result;
   }
   result.verdict = FixVerdict::kApplied;
-  // A second fix for the same instant gets an entry of its own: replay applies one fix per entry.
-  if (entry.fix) {
-    OdometryStep standing = entry.step;
-    standing.from = standing.to;
-    standing.noise.setZero();
-    standing.wander = {};
-    history_.insert(history_.begin() + static_cast<std::ptrdiff_t>(index) + 1,
-                    {.step = standing, .state = update.state, .fix = fix});
-    result.at_picture = EstimateAt(history_[index + 1]);
-    Replay(index + 2);
-  } else {
-    entry.state = update.state;
-    entry.fix = fix;
-    result.at_picture = EstimateAt(entry);
-    Replay(index + 1);
-  }
-  LearnSlip(index, fix);
+  const std::size_t applied = Insert(index, update.state, fix);
+  result.at_picture = EstimateAt(history_[applied]);
+  Replay(applied + 1);
+  if (TellsSlip(fix)) learnt_ = fix;
   return result;
 }
 
-namespace {
-
-/// What the wheels say of the way between two fixes, and how far slip may make that wrong.
-struct WheelsBetween {
-  double turn_rad = 0, forward_m = 0;
-  double variance = 0;  ///< of the turn, by slip as configured
-  bool usable = true;   ///< encoders were credible all the way
-
-  void Add(const OdometryStep& step);
-
- private:
-  double slip_ = 0, with_turn_ = 0;  ///< variance of the slip, and its covariance with the turn
-  bool begun_ = false;
-};
-
-/// The slip keeps its sign for a while: it adds up with the turn that it has made already.
-void WheelsBetween::Add(const OdometryStep& step) {
-  const double forward = step.twist.vx * step.seconds(), kept = step.wander.kept,
-               added = step.wander.variance(1);
-  usable = usable && step.known;
-  turn_rad += step.twist.wz * step.seconds();
-  forward_m += forward;
-  if (!begun_ && kept < 1) {
-    slip_ = added / (1 - kept * kept);
-    begun_ = true;
+/// A second fix for the same instant gets an entry of its own: replay applies one fix per entry.
+std::size_t PoseEstimator::Insert(std::size_t index, const PoseState& state, const LandmarkFix& fix) {
+  if (!history_[index].fix) {
+    history_[index].state = state;
+    history_[index].fix = fix;
+    return index;
   }
-  variance += 2 * with_turn_ * forward + slip_ * forward * forward + step.noise(2, 2);
-  with_turn_ = (with_turn_ + slip_ * forward) * kept;
-  slip_ = slip_ * kept * kept + added;
+  OdometryStep standing = history_[index].step;
+  standing.from = standing.to;
+  standing.noise.setZero();
+  standing.wander = {};
+  history_.insert(history_.begin() + static_cast<std::ptrdiff_t>(index) + 1,
+                  {.step = standing, .state = state, .fix = fix});
+  return index + 1;
 }
+
+/// Takes back what was claimed since the fix before an entry, if by now the wheels are known to slip more.
+bool PoseEstimator::Doubt(std::size_t index) {
+  if (index == 0 || history_[index].slip >= slip_factor_) return false;
+  std::size_t first = index;
+  while (first > 1 && !history_[first - 1].fix) --first;
+  for (std::size_t i = first; i < history_.size(); ++i)
+    history_[i].slip = std::max(history_[i].slip, slip_factor_);
+  Replay(first);
+  return true;
+}
+
+namespace {
 
 double HeadingBy(const LandmarkFix& fix) {
   return WrapAngle(fix.map_from_landmark.yaw - fix.base_from_landmark.yaw);
@@ -197,22 +182,27 @@ double OwnVariance(const LandmarkFix& fix) {
 
 }  // namespace
 
-/// By a fix at an entry, and the one before it; of one that was refused the next one learns nothing.
-void PoseEstimator::LearnSlip(std::size_t index, const LandmarkFix& fix) {
-  constexpr double kMostSigma_rad = Radians(0.3), kMostTurn_rad = 0.1, kLeast_m = 0.03, kMost_m = 1.5;
-  if (fix.covariance(2, 2) > kMostSigma_rad * kMostSigma_rad) return;
-  const std::optional<LandmarkFix> before = learnt_;
-  const Entry& entry = history_[index];
-  if (entry.fix && entry.fix->exposure == fix.exposure) learnt_ = fix;
+bool PoseEstimator::TellsSlip(const LandmarkFix& fix) {
+  constexpr double kMostSigma_rad = Radians(0.3);
+  return fix.covariance(2, 2) <= kMostSigma_rad * kMostSigma_rad;
+}
+
+/// By a fix at an entry, and the one before it. Right or wrong, one that is implausible makes the estimate
+/// more cautious: wheels that slip more than is known make right ones implausible, and nothing but fixes
+/// tells that they do. One that is far off tells nothing.
+void PoseEstimator::LearnSlip(std::size_t index, const LandmarkFix& fix, double distance) {
+  constexpr double kMostTurn_rad = 0.1, kLeast_m = 0.03, kMost_m = 1.5;
+  if (!TellsSlip(fix) || !(distance < 2 * config_.gate_distance)) return;
+  const std::optional<LandmarkFix>& before = learnt_;
   if (!before || before->exposure >= fix.exposure || before->exposure < history_.front().step.to) return;
   WheelsBetween wheels;
   for (std::size_t i = 0; i <= index; ++i)
     if (history_[i].step.to > before->exposure) wheels.Add(history_[i].step);
-  if (!wheels.usable || std::abs(wheels.turn_rad) > kMostTurn_rad || wheels.forward_m < kLeast_m ||
-      wheels.forward_m > kMost_m)
+  if (!wheels.usable() || std::abs(wheels.turn_rad()) > kMostTurn_rad || wheels.forward_m() < kLeast_m ||
+      wheels.forward_m() > kMost_m)
     return;
-  slip_.Add(WrapAngle(HeadingBy(fix) - HeadingBy(*before) - wheels.turn_rad), wheels.variance,
-            OwnVariance(fix) + OwnVariance(*before), wheels.forward_m);
+  slip_.Add(WrapAngle(HeadingBy(fix) - HeadingBy(*before) - wheels.turn_rad()), wheels.variance(),
+            OwnVariance(fix) + OwnVariance(*before), wheels.forward_m());
   slip_factor_ = slip_.factor();
 }
 
@@ -226,7 +216,9 @@ void PoseEstimator::Hear(const RingHeard& heard) {
   Entry& entry = history_[index];
   if (index == 0 || !entry.ranges.empty()) return;
   entry.ranges = heard.ranges;
-  const CycleUpdate update = Updated(entry.state, entry.ranges, config_.walls);
+  DropSilent(entry);
+  const PoseState state = entry.lost ? WithoutWall(entry.state, *entry.lost) : entry.state;
+  const CycleUpdate update = Updated(state, entry.ranges, config_.walls);
   for (std::size_t i = 0; i < heard_.size(); ++i)
     if (update.heard[i]) heard_[i] = heard.time;
   for (const WallSeen& wall : heard.walls) TakeUp(update.state, wall, entry);
@@ -249,16 +241,24 @@ void PoseEstimator::ComparePlan(std::size_t index) {
   Replay(index + 1);
 }
 
-/// A wall that is known and heard is not taken up again, one that is no longer heard gives way.
+/// The range of something else may fit where a wall once was: beyond its end, behind a door. So a wall that
+/// was silent is found anew, by a series of ranges.
+void PoseEstimator::DropSilent(Entry& entry) {
+  const auto silent =
+      std::ranges::find_if(heard_, [&](Time heard) { return entry.step.to - heard >= kUnheard; });
+  if (silent != heard_.end()) Lose(static_cast<int>(silent - heard_.begin()), entry);
+}
+
+void PoseEstimator::Lose(int wall, Entry& entry) {
+  entry.lost = wall;
+  heard_.erase(heard_.begin() + wall);
+}
+
+/// A wall that is known is not taken up again; for another one the one that was heard longest ago gives way.
 void PoseEstimator::TakeUp(const PoseState& state, const WallSeen& seen, Entry& entry) {
-  if (entry.found) return;
-  const auto same = SameWall(state, seen);
-  if (same && entry.step.to - heard_[static_cast<std::size_t>(*same)] < kUnheard) return;
-  if (same || state.walls() == PoseState::kMostWalls) {
-    const auto longest = std::min_element(heard_.begin(), heard_.end());
-    entry.lost = same.value_or(static_cast<int>(longest - heard_.begin()));
-    heard_.erase(heard_.begin() + *entry.lost);
-  }
+  if (entry.found || SameWall(state, seen)) return;
+  if (static_cast<int>(heard_.size()) == PoseState::kMostWalls)
+    Lose(static_cast<int>(std::ranges::min_element(heard_) - heard_.begin()), entry);
   entry.found = seen;
   heard_.push_back(entry.step.to);
 }
@@ -325,10 +325,9 @@ std::size_t PoseEstimator::EntryAt(Time time) {
 void PoseEstimator::Replay(std::size_t from) {
   for (std::size_t i = from; i < history_.size(); ++i) {
     Entry& entry = history_[i];
-    entry.state = Updated(Propagated(history_[i - 1].state, entry.step.Slipping(entry.slip)), entry.ranges,
-                          config_.walls)
-                      .state;
+    entry.state = Propagated(history_[i - 1].state, entry.step.Slipping(entry.slip));
     if (entry.lost) entry.state = WithoutWall(entry.state, *entry.lost);
+    entry.state = Updated(entry.state, entry.ranges, config_.walls).state;
     if (entry.found) entry.state = WithWall(entry.state, *entry.found);
     for (const PlanMatch& match : entry.matches) entry.state = Updated(entry.state, match);
     if (!entry.fix) continue;

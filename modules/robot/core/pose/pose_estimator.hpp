@@ -93,7 +93,9 @@ struct FixResult {
 /// The pose in the map. Odometry carries it; a fix corrects it *at the time of its picture* and everything
 /// driven since is carried forward from there. So a fix may be seconds old, and two fixes may come in either
 /// order with the same result. Errors that several looks share do not average out. Fixes that contradict
-/// estimate and covariance are refused: one wrong door must not move the robot.
+/// estimate and covariance are refused: one wrong door must not move the robot. Unless the fix is far off,
+/// wheels that slip more than was known may be what is wrong: then it is judged by what they add since the
+/// fix before it once more, with all that is known of them by now.
 class PoseEstimator {
  public:
   explicit PoseEstimator(const PoseEstimatorConfig& config);
@@ -129,7 +131,7 @@ class PoseEstimator {
     double slip = 1;                   ///< factor of the variance of the wheels' slip in the step
     std::optional<LandmarkFix> fix{};  ///< the fix that was applied at this entry
     std::vector<RangeSeen> ranges{};   ///< what the ring heard at this entry
-    std::optional<int> lost{};         ///< the wall that was given up after these ranges
+    std::optional<int> lost{};         ///< the wall that was given up before these ranges
     std::optional<WallSeen> found{};   ///< the wall that was taken up then
     std::vector<PlanMatch> matches{};  ///< walls that were found to be the plan's then
   };
@@ -138,8 +140,15 @@ class PoseEstimator {
   LandmarkMeasurement MeasurementOf(const LandmarkFix& fix) const;
   std::size_t EntryAt(Time time);
   void Replay(std::size_t from);
-  void LearnSlip(std::size_t index, const LandmarkFix& fix);
+  /// Whether the heading of a fix is known so well that it tells what the wheels missed.
+  static bool TellsSlip(const LandmarkFix& fix);
+  void LearnSlip(std::size_t index, const LandmarkFix& fix, double distance);
+  bool Doubt(std::size_t index);
+  /// Puts a fix and the state after it at an entry; the entry at which it is.
+  std::size_t Insert(std::size_t index, const PoseState& state, const LandmarkFix& fix);
   void ComparePlan(std::size_t index);
+  void DropSilent(Entry& entry);
+  void Lose(int wall, Entry& entry);
   void TakeUp(const PoseState& state, const WallSeen& seen, Entry& entry);
   PoseEstimate EstimateAt(const Entry& entry) const;
   void Forget();

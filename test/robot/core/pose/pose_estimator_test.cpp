@@ -306,6 +306,15 @@ TEST_F(WallsTest, AKnownWallIsNotTakenUpTwiceUnlessItWasNotHeardForLong) {
   EXPECT_EQ(dut_.walls(), 1);
 }
 
+TEST_F(WallsTest, ARangeThatFitsWhereAWallWasHeardLongAgoIsNotTheWalls) {
+  DriveAlong(dut_, true);
+  for (int i = 200; i < 400; ++i) dut_.Move(Ahead(i));
+  const PoseEstimate before = *dut_.newest();
+  dut_.Hear(Heard(400, 0.51));
+  ExpectSame(*dut_.newest(), before);
+  EXPECT_EQ(dut_.walls(), 0);
+}
+
 TEST_F(WallsTest, TheOneNotHeardForLongestGivesWayToANewOne) {
   DriveAlong(dut_, false);
   for (int i = 0; i < 6; ++i) {
@@ -354,6 +363,49 @@ double SlipFactorAfter(double off_rad) {
 TEST(PoseEstimator, FixesTellHowMuchTheWheelsSlip) {
   EXPECT_LT(SlipFactorAfter(0.0002), 0.7);
   EXPECT_GT(SlipFactorAfter(0.0025), 2);
+}
+
+/// Straight ahead by the wheels; the base turned, 0.5 m after a fix, by `turned_rad` on its way to the next
+/// one. What becomes of that one, and the sigma of the heading before it was told.
+std::pair<FixResult, double> FixAfterATurn(double turned_rad) {
+  constexpr Duration kStep = std::chrono::milliseconds(20);
+  const double kept = std::exp(-0.3 * 0.02 / 0.3);
+  const Pose2 landmark{6, 0, 0};
+  PoseEstimatorConfig config;
+  config.initial = {.position_error_m = 0.05, .yaw_error_deg = 3};
+  PoseEstimator dut(config);
+  Time now = FromUtime(1'000'000);
+  const auto drive = [&] {
+    for (int i = 0; i < 83; ++i, now += kStep)
+      dut.Move({.from = now,
+                .to = now + kStep,
+                .twist = {0.3, 0, 0},
+                .wander = {kept, Eigen::Vector3d::Constant(9.4e-5 * (1 - kept * kept))}});
+  };
+  const auto look = [&](int id, const Pose2& truth) {
+    const Eigen::Matrix3d covariance = Eigen::Vector3d(1e-5, 1e-5, 1e-6).asDiagonal();
+    return dut.Apply({now, id, truth.Inverse() * landmark, covariance, landmark});
+  };
+  drive();
+  EXPECT_EQ(look(1, {0.498, 0, 0}).verdict, FixVerdict::kApplied);
+  drive();
+  const double sigma = dut.newest()->YawSigma();
+  return {look(2, {0.996, turned_rad * 0.25, turned_rad}), sigma};
+}
+
+TEST(PoseEstimator, AFixThatOnlyWheelsWhichSlipMoreExplainIsJudgedByThem) {
+  const auto [near, sigma] = FixAfterATurn(0);
+  EXPECT_LT(near.distance, 1);
+  const auto [slipped, same] = FixAfterATurn(5 * sigma);
+  EXPECT_EQ(slipped.verdict, FixVerdict::kApplied) << slipped.reason;
+  EXPECT_LT(slipped.distance, 4);
+}
+
+TEST(PoseEstimator, AFixThatIsFarOffIsRefusedAtOnce) {
+  const auto [near, sigma] = FixAfterATurn(0);
+  const auto [far, same] = FixAfterATurn(12 * sigma);
+  EXPECT_EQ(far.verdict, FixVerdict::kImplausible);
+  EXPECT_GT(far.distance, 8);
 }
 
 }  // namespace
