@@ -93,7 +93,7 @@ std::string PictureOf(const std::filesystem::path& folder, std::uint64_t seed) {
   cli::RunInfo info;
   info.scenario = "door";
   info.seed = seed;
-  info.door = cli::LoadDoor(map, scenario.landmark_id);
+  info.door = cli::LoadDoor(map, scenario.landmark_id, true);
   info.world = cli::LoadTrueWorld(deployment, scenario, seed);
   return drawing::ToSvg(
       cli::DrawRun(record, cli::Summarise(record, info), info, LoadConfig<GroundPlan>(map)));

@@ -90,7 +90,7 @@ LockstepResult RunLockstep(const bus::Schema& schema, const LockstepRequest& req
   const Scenario scenario = LoadScenario(request.deployment, request.scenario);
   RequireProcess(request, scenario);
   const std::string map_file = MapFile(request.deployment, scenario);
-  const DoorPlan door = LoadDoor(map_file, scenario.landmark_id);
+  const auto door = LoadDoor(map_file, scenario.landmark_id, FindStory(scenario.story).seeks_door);
   bus::Lockstep lockstep(schema, {.seed = request.seed});
   AddHosts(lockstep, scenario.line);
   RunRecorder recorder(request.log_folder);

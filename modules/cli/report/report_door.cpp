@@ -4,14 +4,16 @@
 
 namespace priamos::cli {
 
-DoorPlan BuiltDoor(const RunInfo& info) {
+std::optional<DoorPlan> BuiltDoor(const RunInfo& info) {
+  if (!info.door) return std::nullopt;
   const auto built = std::find_if(info.world.doors.begin(), info.world.doors.end(),
-                                  [&](const DoorPlan& door) { return door.id == info.door.id; });
-  return built == info.world.doors.end() ? info.door : *built;
+                                  [&](const DoorPlan& door) { return door.id == info.door->id; });
+  return built == info.world.doors.end() ? *info.door : *built;
 }
 
 RunRecord OnPlan(RunRecord record, const RunInfo& info) {
-  const Pose2 plan_from_map = info.door.map_from_door() * BuiltDoor(info).map_from_door().Inverse();
+  if (!info.door) return record;
+  const Pose2 plan_from_map = info.door->map_from_door() * BuiltDoor(info)->map_from_door().Inverse();
   for (world_truth_t& truth : record.truth) {
     const Pose2 pose = plan_from_map * Pose2{truth.x_m, truth.y_m, truth.yaw_rad};
     truth.x_m = pose.x;

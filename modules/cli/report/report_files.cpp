@@ -23,11 +23,12 @@ void WriteFile(const std::filesystem::path& file, std::string_view bytes) {
 
 }  // namespace
 
-DoorPlan LoadDoor(const std::string& map_file, int id) {
+std::optional<DoorPlan> LoadDoor(const std::string& map_file, int id, bool needed) {
   const auto plan = LoadConfig<GroundPlan>(map_file);
   const DoorPlan* door = plan.FindDoor(id);
-  if (!door) throw ConfigError(fmt::format("{}: doors: expected a door with id {}, got none", map_file, id));
-  return *door;
+  if (door) return *door;
+  if (!needed) return std::nullopt;
+  throw ConfigError(fmt::format("{}: doors: expected a door with id {}, got none", map_file, id));
 }
 
 std::string SummariesAsJson(const std::vector<Summary>& runs, JsonForm form) {

@@ -10,8 +10,9 @@
 
 namespace priamos::cli {
 
-/// The door `id` of a ground plan file. Throws ConfigError when the plan cannot be used or has no such door.
-DoorPlan LoadDoor(const std::string& map_file, int id);
+/// The door `id` of a ground plan file, if it has one. Throws ConfigError when the plan cannot be used, or
+/// has no such door though it is `needed`.
+std::optional<DoorPlan> LoadDoor(const std::string& map_file, int id, bool needed);
 
 /// How JSON is written: on one line for programs, indented for people.
 enum class JsonForm { kOneLine, kIndented };

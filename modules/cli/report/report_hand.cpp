@@ -103,7 +103,7 @@ std::optional<double> HandSummary::honoured() const {
 }
 
 std::optional<HandSummary> HandSummaryOf(const RunRecord& record, const TrueWorld& world,
-                                         const DoorPlan& passage) {
+                                         const std::optional<DoorPlan>& passage) {
   HandSummary summary;
   HonourSum sum(world, summary);
   Wishes wishes(record.commands);
@@ -119,7 +119,7 @@ std::optional<HandSummary> HandSummaryOf(const RunRecord& record, const TrueWorl
     }
   }
   if (summary.wished_s == 0) return std::nullopt;
-  summary.longest_stop_s = LongestStop(record, world.body, passage);
+  if (passage) summary.longest_stop_s = LongestStop(record, world.body, *passage);
   return summary;
 }
 

@@ -28,7 +28,7 @@ struct HandSummary {
 /// back are no faults. Time spent before something that blocks the wished motion does not count, time spent
 /// where there was room does.
 std::optional<HandSummary> HandSummaryOf(const RunRecord& record, const TrueWorld& world,
-                                         const DoorPlan& passage);
+                                         const std::optional<DoorPlan>& passage);
 
 /// Why a drive by hand that came to its end has not passed, in words; empty if it has.
 /// `longest_stop_s` as in Scenario.

@@ -82,12 +82,12 @@ double DrawOverview(Drawing& page, double top, const RunRecord& record, const Ru
   DrawFloor(view, extent);
   DrawPlan(view, scene.plan, true);
   DrawThings(view, scene.things, true);
-  DrawAxis(view, info.door);
+  if (info.door) DrawAxis(view, *info.door);
   DrawRobots(view, record, scene.footprint_m);
   DrawEllipses(view, record);
   DrawTruth(view, record);
   DrawBelief(view, record);
-  DrawLooks(view, record, info.door);
+  if (info.door) DrawLooks(view, record, *info.door);
   DrawContacts(view, record);
   view.SetLabels();
   DrawAxes(page, view, extent, scale);
@@ -104,13 +104,13 @@ Box BeginPanel(Drawing& page, const Box& panel, const std::string& title) {
 void DrawPassage(Drawing& page, const Box& panel, const RunRecord& record, const RunInfo& info,
                  const Scene& scene) {
   constexpr double kScale = 210, kEvery_m = 0.06, kNear_m = 2, kOpacity = 0.04;
-  const Pose2 map_from_door = BuiltDoor(info).map_from_door();
+  const Pose2 map_from_door = BuiltDoor(info)->map_from_door();
   MapView view(page, BeginPanel(page, panel, "in the door"), map_from_door.translation(), kScale);
   const Vector2d reach(3, 3);
   DrawFloor(view, {map_from_door.translation() - reach, map_from_door.translation() + reach});
   DrawPlan(view, scene.plan, false);
   DrawThings(view, scene.things, false);
-  DrawAxis(view, info.door);
+  DrawAxis(view, *info.door);
   Vector2d last(1e9, 1e9);
   for (const auto& truth : record.truth) {
     if ((PositionOf(truth) - last).norm() < kEvery_m) continue;
@@ -127,19 +127,20 @@ void DrawPassage(Drawing& page, const Box& panel, const RunRecord& record, const
   view.SetLabels();
 }
 
-std::string DoorFigures(const Summary& summary, const DoorPlan& door) {
+std::string DoorFigures(const Summary& summary, const std::optional<DoorPlan>& door) {
   const std::string gap = fmt::format("smallest gap {:.1f} cm", summary.min_gap_m * 100);
   if (!SeeksTheDoor(summary)) {
     const auto honoured = summary.hand->honoured();
     return fmt::format("{} of the free motion wished was made; {}",
                        honoured ? fmt::format("{:.1f} %", *honoured * 100) : "-", gap);
   }
-  if (!summary.lateral_at_door_m) return fmt::format("door {} was not crossed; {}", door.name, gap);
+  if (!door) return gap;
+  if (!summary.lateral_at_door_m) return fmt::format("door {} was not crossed; {}", door->name, gap);
   return fmt::format("in the door: {:+.1f} cm lateral, {:+.2f}° heading; {}",
                      *summary.lateral_at_door_m * 100, summary.heading_at_door_deg.value_or(0), gap);
 }
 
-std::vector<std::string> Figures(const Summary& summary, const DoorPlan& door) {
+std::vector<std::string> Figures(const Summary& summary, const std::optional<DoorPlan>& door) {
   std::vector<std::string> lines{DoorFigures(summary, door)};
   for (std::size_t i = 0; i < summary.fixes.size(); ++i) {
     const FixSummary& fix = summary.fixes[i];
@@ -172,10 +173,9 @@ Drawing DrawRun(const RunRecord& record, const Summary& summary, const RunInfo& 
   Drawing page(kWidth, 0, kPaper);
   const double panels = DrawOverview(page, DrawHeader(page, summary), record, info, scene);
   const double width = (kInner - kMargin) / 2;
-  DrawPassage(page, {kMargin, panels, width, kPanelHeight}, record, info, scene);
-  DrawFixErrors(page,
-                BeginPanel(page, {kMargin + width + kMargin, panels, width, kPanelHeight},
-                           "belief − truth at the fixes"),
+  if (info.door) DrawPassage(page, {kMargin, panels, width, kPanelHeight}, record, info, scene);
+  const double beside = info.door ? kMargin + width + kMargin : kMargin;
+  DrawFixErrors(page, BeginPanel(page, {beside, panels, width, kPanelHeight}, "belief − truth at the fixes"),
                 OnPlan(record, info));
   // After all that it explains.
   const Box legend = BeginPanel(page, {kMargin, panels + kPanelHeight + 30, kInner, 60}, "legend");

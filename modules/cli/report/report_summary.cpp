@@ -188,16 +188,16 @@ RadioSummary RadioOf(const std::vector<link_status_t>& reports) {
 }
 
 Summary Summarise(const RunRecord& record, const RunInfo& info) {
-  const DoorPlan built = BuiltDoor(info);
+  const auto built = BuiltDoor(info);
   const MissionSpan span = SpanOf(record);
-  const auto crossing = CrossingOf(record, built.map_from_door());
+  const auto crossing = built ? CrossingOf(record, built->map_from_door()) : std::nullopt;
   Summary summary;
   summary.scenario = info.scenario;
   summary.seed = info.seed;
   summary.reason = info.reason;
   summary.story = info.story;
   summary.realtime_factor = info.realtime_factor;
-  summary.passed = span.done && crossing && EndsBehind(record, built);
+  summary.passed = span.done && crossing && EndsBehind(record, *built);
   if (!record.truth.empty()) {
     summary.contacts = record.truth.back().contacts;
     summary.min_gap_m = record.truth.back().min_gap_m;
@@ -207,7 +207,7 @@ Summary Summarise(const RunRecord& record, const RunInfo& info) {
     summary.heading_at_door_deg = Degrees(crossing->heading_rad);
   }
   const RunRecord on_plan = OnPlan(record, info);
-  if (crossing) summary.belief_at_door = BeliefAt(on_plan, info.door, crossing->utime);
+  if (crossing) summary.belief_at_door = BeliefAt(on_plan, *info.door, crossing->utime);
   summary.corrections = CorrectionsOf(record);
   summary.corridor = CorridorSummaryOf(record);
   summary.doors = FoundDoorsOf(record, info);

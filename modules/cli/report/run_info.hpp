@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,7 @@ struct RunInfo {
   std::string scenario;
   std::uint64_t seed = 0;
   double realtime_factor = 1;
-  DoorPlan door;                 ///< the door that was to be passed, from the ground plan
+  std::optional<DoorPlan> door;  ///< the door that was to be passed, from the ground plan; none in it
   std::string reason;            ///< last line of the story
   std::vector<StoryLine> story;  ///< the lines shown meanwhile
   TrueWorld world;               ///< the simulated world of the run

@@ -14,6 +14,7 @@ class CorridorStory : public OrderStory {
   static constexpr std::string_view kName = "corridor";
   static constexpr std::string_view kSummary = "the planner has a corridor followed to its end";
   static constexpr bool kMovesMouse = false;
+  static constexpr bool kSeeksDoor = false;
 
   explicit CorridorStory(const StoryStage& stage) : OrderStory(stage) {}
 

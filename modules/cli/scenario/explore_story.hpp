@@ -13,6 +13,7 @@ class ExploreStory : public OrderStory {
   static constexpr std::string_view kName = "explore";
   static constexpr std::string_view kSummary = "the planner has an unknown floor explored";
   static constexpr bool kMovesMouse = false;
+  static constexpr bool kSeeksDoor = false;
 
   explicit ExploreStory(const StoryStage& stage) : OrderStory(stage) {}
 

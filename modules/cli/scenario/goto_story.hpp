@@ -14,6 +14,7 @@ class GotoStory : public OrderStory {
   static constexpr std::string_view kName = "goto";
   static constexpr std::string_view kSummary = "the planner drives to places";
   static constexpr bool kMovesMouse = false;
+  static constexpr bool kSeeksDoor = false;
 
   explicit GotoStory(const StoryStage& stage) : OrderStory(stage) {}
 

@@ -16,6 +16,7 @@ class PatrolStory : public OrderStory {
   static constexpr std::string_view kName = "patrol";
   static constexpr std::string_view kSummary = "the planner drives to places, round after round";
   static constexpr bool kMovesMouse = false;
+  static constexpr bool kSeeksDoor = false;
 
   explicit PatrolStory(const StoryStage& stage)
       : OrderStory(stage),

@@ -12,8 +12,8 @@ namespace priamos::cli {
 inline constexpr Duration kAftermath = std::chrono::milliseconds(1500);
 
 /// What a person does in a scenario, and whether it came to a good end. The same in real time and in
-/// lockstep. A story is a class in a file of its own with the constants kName, kSummary and kMovesMouse (see
-/// StoryKind) and a constructor from a StoryStage; the file ends with `template StoryKind
+/// lockstep. A story is a class in a file of its own with the constants kName, kSummary, kMovesMouse and
+/// kSeeksDoor (see StoryKind) and a constructor from a StoryStage; the file ends with `template StoryKind
 /// KindOf<MyStory>();`, and story_registry.cpp has a line for the class.
 class ScenarioStory {
  public:
@@ -32,7 +32,7 @@ class ScenarioStory {
 
 template <class Story>
 StoryKind KindOf() {
-  return {Story::kName, Story::kSummary, Story::kMovesMouse,
+  return {Story::kName, Story::kSummary, Story::kMovesMouse, Story::kSeeksDoor,
           [](const StoryStage& stage) -> std::unique_ptr<ScenarioStory> {
             return std::make_unique<Story>(stage);
           }};

@@ -32,6 +32,7 @@ struct StoryKind {
   std::string_view name;     ///< the word in a scenario file
   std::string_view summary;  ///< what the person does, in a few words
   bool moves_mouse;          ///< needs StoryStage::open_mouse
+  bool seeks_door;           ///< needs the scenario's door in the ground plan
   std::unique_ptr<ScenarioStory> (*make)(const StoryStage& stage);
 };
 

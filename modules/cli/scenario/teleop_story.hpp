@@ -25,6 +25,7 @@ class TeleopStory : public ScenarioStory {
   static constexpr std::string_view kName = "teleop";
   static constexpr std::string_view kSummary = "an operator drives";
   static constexpr bool kMovesMouse = true;
+  static constexpr bool kSeeksDoor = true;
 
   explicit TeleopStory(const StoryStage& stage);
 

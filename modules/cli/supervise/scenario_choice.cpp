@@ -21,10 +21,13 @@ std::string SetOf(const Scenario& scenario, const std::string& module, const std
   return at == all.end() ? "" : at->set;
 }
 
-/// The map that the planner has: its own, when what the scenario names is the truth for a report.
+/// What sets the map of planner and station. The planner's, when the scenario gives it another one than the
+/// true one; nothing in the deployment's own world, of which they have the map already.
 std::string MapOf(const Scenario& scenario) {
   const std::string set = SetOf(scenario, "planner", "offboard");
-  return set.starts_with(kMapKey) ? set : std::string(kMapKey) + scenario.map;
+  if (set.starts_with(kMapKey)) return set;
+  const bool own_world = SetOf(scenario, "world", "onboard").starts_with("world=");
+  return own_world ? std::string(kMapKey) + scenario.map : "";
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ struct OfferedScenario {
 std::vector<OfferedScenario> OfferedScenarios(const Deployment& deployment, const std::string& folder);
 
 /// `deployment` in the world of one of its scenarios: what that sets of a process holds instead, and planner
-/// and station have its map. Throws ConfigError; an unknown name is answered with the known ones.
+/// and station have its map, unless it is in the deployment's own world. Throws ConfigError; an unknown name
+/// is answered with the known ones.
 Deployment InScenario(Deployment deployment, const std::string& folder, const std::string& name);
 
 }  // namespace priamos::cli

@@ -17,7 +17,7 @@ std::int64_t At(double t_s) {
 }
 
 DoorPlan DoorTurnedBy(double yaw_deg) {
-  DoorPlan door = TestInfo().door;
+  DoorPlan door = *TestInfo().door;
   door.yaw_deg = yaw_deg;
   return door;
 }

@@ -8,20 +8,21 @@ namespace {
 /// A door of the plan at (6, 2.4) that was built 10 cm behind it and turned by a right angle.
 RunInfo Displaced() {
   RunInfo info;
-  info.door.id = 3;
-  info.door.x_m = 6;
-  info.door.y_m = 2.4;
-  info.world.doors = {info.door};
+  info.door.emplace();
+  info.door->id = 3;
+  info.door->x_m = 6;
+  info.door->y_m = 2.4;
+  info.world.doors = {*info.door};
   info.world.doors[0].x_m = 6.1;
   info.world.doors[0].yaw_deg = 90;
   return info;
 }
 
 TEST(ReportDoor, IsTheOneThatWasBuilt) {
-  EXPECT_EQ(BuiltDoor(Displaced()).x_m, 6.1);
+  EXPECT_EQ(BuiltDoor(Displaced())->x_m, 6.1);
   RunInfo without = Displaced();
   without.world.doors.clear();
-  EXPECT_EQ(BuiltDoor(without).x_m, 6);
+  EXPECT_EQ(BuiltDoor(without)->x_m, 6);
 }
 
 TEST(ReportDoor, OnThePlanTheTruthIsAtTheDoorAsInTheWorld) {

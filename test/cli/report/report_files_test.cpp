@@ -53,12 +53,16 @@ TEST_F(ReportFiles, FolderThatCannotBeWrittenIsNamed) {
 }
 
 TEST(LoadDoor, FindsTheDoorOfTheShippedMap) {
-  EXPECT_DOUBLE_EQ(LoadDoor(kMap, 1).opening_width_m, 0.90);
+  EXPECT_DOUBLE_EQ(LoadDoor(kMap, 1, true)->opening_width_m, 0.90);
+}
+
+TEST(LoadDoor, AFloorMayHaveNone) {
+  EXPECT_FALSE(LoadDoor(kMap, 9, false));
 }
 
 TEST(LoadDoor, UnknownDoorIsASentence) {
   try {
-    LoadDoor(kMap, 9);
+    LoadDoor(kMap, 9, true);
     FAIL();
   } catch (const ConfigError& error) {
     EXPECT_THAT(error.what(), HasSubstr("expected a door with id 9, got none"));

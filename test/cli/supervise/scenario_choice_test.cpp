@@ -49,6 +49,12 @@ TEST(ScenarioChoice, PlannerAndStationHaveTheMapOfItsWorld) {
       << "the scenario has no planner, a deployment has";
 }
 
+TEST(ScenarioChoice, InTheDeploymentsOwnWorldPlannerAndStationHaveTheirOwnMap) {
+  const Deployment shipped = Shipped(kSim), door = InScenario(shipped, kSim, "door");
+  EXPECT_EQ(SetOf(door, "planner"), SetOf(shipped, "planner"));
+  EXPECT_EQ(SetOf(door, "console"), SetOf(shipped, "console"));
+}
+
 TEST(ScenarioChoice, WhatIsNotThereIsRefusedWithWhatIs) {
   EXPECT_THAT(support::ThrownReason([] { InScenario(Shipped(kSim), kSim, "corridr"); }),
               HasSubstr("corridor"));

@@ -229,7 +229,7 @@ int Run(RunOptions options) {
   options.log_root = LogRoot(options.log_root);
   const Scenario scenario = LoadScenario(options.deployment, options.scenario);
   const std::string map_file = MapFile(options.deployment, scenario);
-  const DoorPlan door = LoadDoor(map_file, scenario.landmark_id);
+  const auto door = LoadDoor(map_file, scenario.landmark_id, FindStory(scenario.story).seeks_door);
   RealTimeRun run(options, scenario);
   const bool whole = run.Run();
   if (!run.story().Started()) return FailedStart(run, options.json);
