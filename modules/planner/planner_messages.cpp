@@ -326,7 +326,7 @@ std::string_view CorrectionVerdictText(int verdict) {
     case pose_correction_t::IMPLAUSIBLE:
       return "the robot found the fix implausible";
     case pose_correction_t::RESET:
-      return "the pose was set by a person";
+      return "the pose was set by order";
     case pose_correction_t::MOVING:
       return "the base was moving";
     default:

@@ -229,7 +229,7 @@ int RobotApp::SetPose(const pose_reset_t& order, Time now, Pose2& change) {
                   "the base drives; next: abort the mission or let go, and set it again");
   change = localiser_.Reset(*known);
   context_.Log(bus::Level::kInfo,
-               fmt::format("pose {} set by a person: ({:.2f}, {:.2f}), {:.0f} deg, known to {:.2f} m",
+               fmt::format("pose {} set by order: ({:.2f}, {:.2f}), {:.0f} deg, known to {:.2f} m",
                            order.request_id, known->map_from_base.x, known->map_from_base.y,
                            Degrees(known->map_from_base.yaw), known->sigma_m));
   return pose_correction_t::RESET;

@@ -206,7 +206,7 @@ TEST(RobotApp, APersonSetsItsPoseWhileItStands) {
   EXPECT_NEAR(robot.pose.get()->x_m, 4, 0.01);
   EXPECT_NEAR(robot.pose.get()->yaw_rad, 1, 0.01);
   EXPECT_NEAR(robot.pose.get()->sigma_x_m, 0.1, 0.01);
-  EXPECT_THAT(robot.log, Contains(HasSubstr("pose 9 set by a person: (4.00, 1.00), 57 deg")));
+  EXPECT_THAT(robot.log, Contains(HasSubstr("pose 9 set by order: (4.00, 1.00), 57 deg")));
 }
 
 TEST(RobotApp, AfterAPathItsNewPoseDoesNotLeadItBack) {

@@ -1,5 +1,7 @@
 #include "common/learned/learned_walls.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -17,11 +19,13 @@ namespace {
 constexpr int kMostWalls = 100000;
 constexpr unsigned kMode = 0644;
 
+/// `what`: one of them in a word.
 template <class T>
-void RefuseTwice(Archive& a, std::string_view key, const std::vector<T>& all, std::string_view expected) {
+void RefuseTwice(Archive& a, std::string_view key, const std::vector<T>& all, std::string_view what) {
   std::set<int> ids;
   for (const T& one : all)
-    if (!ids.insert(one.id).second) a.Refuse(key, expected);
+    if (!ids.insert(one.id).second)
+      a.Refuse(key, fmt::format("every {} with its own id, not {} twice", what, one.id));
 }
 
 }  // namespace
@@ -61,15 +65,16 @@ double LearnedWall::SigmaAt(double along_m) const {
 
 void LearnedWalls::Describe(Archive& a) {
   a.Integer("version", version, {"-", kVersion, kVersion, "of this file's form"});
+  a.Require("version", fmt::format("{}, the version of the file's form", kVersion));
   a.Integer("revision", revision, {"-", 0, 2e9, "counts the changes"});
   a.List("walls", walls, "straight pieces of wall");
-  RefuseTwice(a, "walls", walls, "every wall with its own id");
+  RefuseTwice(a, "walls", walls, "wall");
   a.List("doors", doors, "doors that were seen");
-  RefuseTwice(a, "doors", doors, "every door with its own id");
+  RefuseTwice(a, "doors", doors, "door");
   a.List("objects", objects, "things that stand on the floor");
-  RefuseTwice(a, "objects", objects, "every thing with its own id");
+  RefuseTwice(a, "objects", objects, "thing");
   a.List("points", points, "places that echo to all sides");
-  RefuseTwice(a, "points", points, "every point with its own id");
+  RefuseTwice(a, "points", points, "point");
   if (points.size() > kMostPoints) a.Refuse("points", "at most 1000 of them");
   if (objects.size() > kMostObjects) a.Refuse("objects", "at most 300 of them");
   if (doors.size() > static_cast<std::size_t>(kMostWalls)) a.Refuse("doors", "at most 100000 of them");

@@ -125,12 +125,13 @@ TEST_F(LearnedWallsTest, AFileThatCannotBeWrittenIsTold) {
 TEST_F(LearnedWallsTest, DamagedFilesAreRefusedWithTheirLine) {
   EXPECT_THAT(Refused("version = 2\n"),
               HasSubstr("learned-map.toml:1:version: expected a whole number, 1 to 1"));
+  EXPECT_THAT(Refused("revision = 4\n"), HasSubstr("version: expected 1, the version of the file's form"));
   EXPECT_THAT(Refused("version = 1\nwall = 3\n"), HasSubstr("learned-map.toml:2:"));
   EXPECT_THAT(Refused("version = 1\n[[walls]]\nid = 1\nx_m = nan\n"),
               HasSubstr("learned-map.toml:4:walls[0].x_m"));
   for (const std::string list : {"walls", "doors", "objects", "points"}) {
     const std::string one = "[[" + list + "]]\nid = 1\nx_m = 0\ny_m = 0\n";
-    EXPECT_THAT(Refused("version = 1\n" + one + one), HasSubstr("with its own id")) << list;
+    EXPECT_THAT(Refused("version = 1\n" + one + one), HasSubstr("with its own id, not 1 twice")) << list;
     const std::string key = "learned-map.toml:2:" + list + "[0].";
     EXPECT_THAT(Refused("version = 1\n[[" + list + "]]\n"), HasSubstr(key + "id: expected the number of"));
     EXPECT_THAT(Refused("version = 1\n[[" + list + "]]\nid = 1\nx_m = 2\n"),

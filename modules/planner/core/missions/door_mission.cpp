@@ -68,8 +68,8 @@ void DoorMissionConfig::Describe(Archive& a) {
            {"s", 0, 60, "wait behind the door for the sonars' report of an opening"});
   a.Integer("retries", retries, {"-", 0, 10, "tries after an obstacle in the door"});
   limits.Describe(a);
-  a.Section("look", look, "looks at the sides of the door");
   passage.Describe(a);
+  a.Section("look", look, "looks at the sides of the door");
 }
 
 DoorMission::DoorMission(const DoorMissionConfig& config, const DoorPlannerConfig& planner,
