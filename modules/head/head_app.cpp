@@ -9,8 +9,6 @@
 
 #include "common/archive.hpp"
 #include "common/robot/camera_bits.hpp"
-#include "head/core/motion/aim_far.hpp"
-#include "head/core/motion/head_stay.hpp"
 #include "head/files/calibration_file.hpp"
 #include "head/vision_options.hpp"
 
@@ -23,6 +21,13 @@ constexpr std::size_t kMaxOrders = 16;
 int CamerasOf(const HeadConfig& config, const HeadModel& head) {
   return config.vision.third_camera && head.CameraAt(config.LookSetting(), kThird) ? kCameras
                                                                                    : LookSequence::kPair;
+}
+
+std::vector<UprightTarget> TargetsOf(const FarEdges& far) {
+  std::vector<UprightTarget> targets;
+  targets.reserve(far.edges().size());
+  for (const FarEdge& edge : far.edges()) targets.push_back({edge.at, edge.bottom_m, edge.top_m});
+  return targets;
 }
 
 LookAnswer NotFound(Verdict verdict, Time exposure) {
@@ -107,49 +112,32 @@ void HeadApp::EndWithoutPictures(Time now) {
   Answer(NotFound(Verdict::kNoImage, now));
 }
 
-/// Straight ahead while model or pose are unknown, which the answer reports.
-HeadSetting HeadApp::SettingFor(const LookOrder& order, Time now) const {
-  HeadSetting setting = config_.LookSetting();
+/// nullopt while model or pose are unknown, which the answer reports.
+std::optional<LookWish> HeadApp::WishOf(const LookOrder& order, Time now) const {
   const auto model = models_.find(order.landmark_id);
   const auto robot = poses_.At(now);
-  if (model == models_.end() || !robot) return setting;
-  const LandmarkPrediction expected =
-      PredictAhead(*robot, model->second.map_from_landmark, config_.aim.lead_s);
-  const LandmarkPrediction later =
-      PredictAhead(*robot, model->second.map_from_landmark, config_.aim.lead_s + config_.look_up.ahead_s);
-  setting.tilt_rad = AimTilt(head_, setting, model->second, expected.base_from_landmark,
-                             later.base_from_landmark, config_.look_up);
-  if (config_.lens.choose && report_) {
-    // Counters may rest a step beside the goal.
-    const HeadSetting& here = positioner_.settled() ? positioner_.goal() : report_->setting;
-    return ChooseLens(head_, setting, here, {model->second, *robot, order.side}, config_.aim, config_.lens,
-                      config_.motors.approach_steps);
-  }
-  setting.pan_rad = AimPan(head_, setting, model->second, expected, later, order.side, config_.aim);
-  const bool same_side = looked_at_ && looked_at_->landmark_id == order.landmark_id &&
-                         looked_at_->side == order.side && positioner_.settled();
-  const LandmarkPrediction at_once = Predict(*robot, model->second.map_from_landmark);
-  const bool stays = same_side && MayStay(head_, {positioner_.goal(), setting}, model->second, at_once,
-                                          order.side, config_.aim, config_.look_up);
-  return stays ? positioner_.goal() : setting;
+  if (model == models_.end() || !robot) return std::nullopt;
+  return LookWish{model->second, *robot, order.side};
 }
 
-/// To the side on which most of what stands beyond the landmark will be in both pictures; further on as it
-/// was, since turning takes longer than looking.
-HeadSetting HeadApp::SettingBeyond(const LookOrder& order, Time now) {
-  HeadSetting setting = config_.LookSetting();
-  if (beyond_at_) return *beyond_at_;
-  const auto model = models_.find(order.landmark_id);
-  const auto robot = poses_.At(now);
-  if (model == models_.end() || !robot) return setting;
-  const Pose2 base_from_landmark =
-      PredictAhead(*robot, model->second.map_from_landmark, config_.aim.lead_s).base_from_landmark;
-  std::vector<UprightTarget> targets;
-  for (const FarEdge& edge : evaluator_.Beyond(order.landmark_id).edges())
-    targets.push_back({base_from_landmark * edge.at, edge.bottom_m, edge.top_m});
-  setting.pan_rad = AimFar(head_, setting, targets);
-  beyond_at_ = setting;
-  return setting;
+HeadSetting HeadApp::SettingOf(const LookOrder& order, Time now) {
+  const auto wish = WishOf(order, now);
+  const GazeConfig gaze = config_.Gaze();
+  if (beyond_) {
+    // Further on as it was: turning takes longer than looking.
+    if (!beyond_at_ && wish)
+      beyond_at_ = SettingBeyond(head_, *wish, TargetsOf(evaluator_.Beyond(order.landmark_id)), gaze);
+    return beyond_at_.value_or(gaze.fixed);
+  }
+  beyond_at_.reset();
+  if (!wish) return gaze.fixed;
+  HeadStanding standing;
+  const bool same_side =
+      looked_at_ && looked_at_->landmark_id == order.landmark_id && looked_at_->side == order.side;
+  if (same_side && positioner_.settled()) standing.kept = positioner_.goal();
+  // Counters may rest a step beside the goal.
+  if (report_) standing.here = positioner_.settled() ? positioner_.goal() : report_->setting;
+  return SettingFor(head_, *wish, standing, gaze);
 }
 
 void HeadApp::Reconfigure(const HeadConfig& config) {
@@ -206,43 +194,30 @@ void HeadApp::TakeMessages(Time now) {
 
 void HeadApp::StartNext(Time now) {
   if (look_.active() && !glancing_) {
-    if (DistanceTo(orders_.front(), now) < config_.look.near_m) glances_.Defer(now);
+    const auto wish = WishOf(orders_.front(), now);
+    if (wish && DistanceTo(*wish) < config_.look.near_m) glances_.Defer(now);
     return;
   }
   Follow(now);
   if (orders_.empty()) return GlanceAround(now);
   glancing_ = false;  // an order has the head at once
-  if (!following_) beyond_ = follow_.GoesBeyond(ApproachTo(orders_.front(), now));
-  if (!beyond_) beyond_at_.reset();
-  positioner_.MoveTo(beyond_ ? SettingBeyond(orders_.front(), now) : SettingFor(orders_.front(), now), now);
+  if (!following_) beyond_ = follow_.GoesBeyond(ApproachOf(orders_.front(), now));
+  positioner_.MoveTo(SettingOf(orders_.front(), now), now);
   looked_at_ = orders_.front();
   beyond_ ? look_.Begin(now, LookSequence::kPair) : look_.Begin(now);
 }
 
-/// Distance of an order's landmark from the base; infinite where nobody knows it.
-double HeadApp::DistanceTo(const LookOrder& order, Time now) const {
-  const auto model = models_.find(order.landmark_id);
-  const auto robot = poses_.At(now);
-  if (model == models_.end() || !robot) return std::numeric_limits<double>::infinity();
-  return (robot->map_from_base.Inverse() * model->second.map_from_landmark).translation().norm();
-}
-
 /// Infinitely far where nobody knows the landmark or the pose.
-Approach HeadApp::ApproachTo(const LookOrder& order, Time now) {
-  constexpr std::size_t kEnough = 4;  // three have to agree
-  const auto model = models_.find(order.landmark_id);
-  const auto robot = poses_.At(now);
-  if (model == models_.end() || !robot) return {std::numeric_limits<double>::infinity(), 0, false};
-  const Pose2 at = model->second.map_from_landmark.Inverse() * robot->map_from_base;
-  const double along = std::cos(at.yaw) < 0 ? at.x : -at.x;
-  return {along < 0 ? along : at.translation().norm(), std::hypot(robot->twist.vx, robot->twist.vy),
-          evaluator_.Beyond(order.landmark_id).edges().size() >= kEnough};
+Approach HeadApp::ApproachOf(const LookOrder& order, Time now) {
+  const auto wish = WishOf(order, now);
+  if (!wish) return {std::numeric_limits<double>::infinity(), 0, false};
+  return ApproachTo(*wish, evaluator_.Beyond(order.landmark_id).edges().size());
 }
 
 /// Looks again at what was found from near, or at what stands beyond it.
 void HeadApp::Follow(Time now) {
   if (!orders_.empty() || !looked_at_) return;
-  const Following next = follow_.Due(ApproachTo(*looked_at_, now), now);
+  const Following next = follow_.Due(ApproachOf(*looked_at_, now), now);
   following_ = next != Following::kNothing;
   beyond_ = next == Following::kBeyond;
   if (following_) orders_.push_back(*looked_at_);

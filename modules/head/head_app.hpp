@@ -16,6 +16,7 @@
 #include "head/core/look/look_evaluator.hpp"
 #include "head/core/motion/aim.hpp"
 #include "head/core/motion/follow_up.hpp"
+#include "head/core/motion/gaze.hpp"
 #include "head/core/motion/head_aim.hpp"
 #include "head/core/motion/head_jog.hpp"
 #include "head/glances.hpp"
@@ -55,8 +56,8 @@ class HeadApp {
  private:
   void TakeMessages(Time now);
   void StartNext(Time now);
-  double DistanceTo(const LookOrder& order, Time now) const;
-  Approach ApproachTo(const LookOrder& order, Time now);
+  std::optional<LookWish> WishOf(const LookOrder& order, Time now) const;
+  Approach ApproachOf(const LookOrder& order, Time now);
   void Follow(Time now);
   void GlanceAround(Time now);
   void EndGlance();
@@ -75,8 +76,7 @@ class HeadApp {
   std::optional<GreyImage> Picture(const FrameNotice& frame);
   void Judge(const StereoDrift& drift);
   void ReportHealth();
-  HeadSetting SettingFor(const LookOrder& order, Time now) const;
-  HeadSetting SettingBeyond(const LookOrder& order, Time now);
+  HeadSetting SettingOf(const LookOrder& order, Time now);
   LookInput InputOf(const Frames& frames);
   void AnswerBeyond(const LandmarkFix& fix, Time exposure);
   void Answer(LookAnswer answer);

@@ -9,11 +9,9 @@
 #include "head/core/drift/drift_monitor.hpp"
 #include "head/core/floor/laser_watch.hpp"
 #include "head/core/motion/ahead_watch.hpp"
-#include "head/core/motion/aim.hpp"
-#include "head/core/motion/aim_tilt.hpp"
 #include "head/core/motion/follow_up.hpp"
+#include "head/core/motion/gaze.hpp"
 #include "head/core/motion/head_positioner.hpp"
-#include "head/core/motion/lens_choice.hpp"
 #include "head/core/motion/look_sequence.hpp"
 #include "head/core/motion/side_watch.hpp"
 #include "head/video_config.hpp"
@@ -77,6 +75,8 @@ struct HeadConfig {
   void Describe(Archive& a);
   /// Setting of all looks; each look sets the pan itself, and with `lens.choose` zoom and focus.
   HeadSetting LookSetting() const;
+  /// How it is chosen.
+  GazeConfig Gaze() const { return {LookSetting(), aim, look_up, lens, motors.approach_steps}; }
   /// Setting at which the third camera sees the laser's line.
   HeadSetting WatchSetting() const;
 };
