@@ -69,18 +69,45 @@ NarrowPassage PassageBetween(const Rectangle& a, const Rectangle& b) {
   return passage;
 }
 
-/// The obstacles whose boxes are no farther apart: a sweep along x, for a building has a thousand of them.
-std::vector<std::pair<std::size_t, std::size_t>> PairsWithin(const ObstacleMap& obstacles, double most_m) {
+/// An obstacle near another one.
+struct Neighbour {
+  double distance_m = 0;  ///< between the boxes around both
+  std::size_t index = 0;
+};
+
+/// Of each obstacle those whose boxes are no farther away, the nearest first: a sweep along x, for a building
+/// has a thousand of them.
+std::vector<std::vector<Neighbour>> NeighboursWithin(const ObstacleMap& obstacles, double most_m) {
   std::vector<std::pair<Eigen::AlignedBox2d, std::size_t>> boxes;
   for (std::size_t i = 0; i < obstacles.size(); ++i) boxes.emplace_back(obstacles.BoundsOf(i), i);
   std::sort(boxes.begin(), boxes.end(), [](const auto& a, const auto& b) {
     return std::pair(a.first.min().x(), a.second) < std::pair(b.first.min().x(), b.second);
   });
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  std::vector<std::vector<Neighbour>> near(obstacles.size());
   for (auto a = boxes.begin(); a != boxes.end(); ++a)
-    for (auto b = a + 1; b != boxes.end() && b->first.min().x() - a->first.max().x() <= most_m; ++b)
-      if (a->first.exteriorDistance(b->first) <= most_m) pairs.emplace_back(a->second, b->second);
-  return pairs;
+    for (auto b = a + 1; b != boxes.end() && b->first.min().x() - a->first.max().x() <= most_m; ++b) {
+      const double distance_m = a->first.exteriorDistance(b->first);
+      if (distance_m > most_m) continue;
+      near[a->second].push_back({distance_m, b->second});
+      near[b->second].push_back({distance_m, a->second});
+    }
+  for (auto& of_one : near)
+    std::sort(of_one.begin(), of_one.end(), [](const Neighbour& a, const Neighbour& b) {
+      return std::pair(a.distance_m, a.index) < std::pair(b.distance_m, b.index);
+    });
+  return near;
+}
+
+/// Whether nothing is nearer to the middle of a passage than its sides. What is would be near the obstacle of
+/// one side, too; where obstacles are crowded one of the nearest is.
+bool IsFree(const NarrowPassage& passage, const std::vector<Neighbour>& near_side,
+            const ObstacleMap& obstacles) {
+  const Vector2d middle = passage.map_from_passage.translation();
+  for (const Neighbour& other : near_side) {
+    if (other.distance_m > passage.width_m) return true;
+    if (obstacles.DistanceTo(other.index, middle) < passage.width_m / 2 - kAsNear_m) return false;
+  }
+  return true;
 }
 
 bool AreOne(const NarrowPassage& a, const NarrowPassage& b) {
@@ -111,13 +138,14 @@ bool NarrowPassage::Holds(const Vector2d& from, const Vector2d& to, double half_
 
 std::vector<NarrowPassage> NarrowPassagesOf(const ObstacleMap& obstacles, double least_m, double most_m) {
   std::vector<NarrowPassage> passages;
-  for (const auto& [i, k] : PairsWithin(obstacles, most_m)) {
-    const NarrowPassage passage = PassageBetween(obstacles.ShapeOf(i), obstacles.ShapeOf(k));
-    if (passage.width_m < least_m || passage.width_m > most_m) continue;
-    const Rectangle middle{passage.map_from_passage, {0, 0}};
-    if (obstacles.NearestTo(middle).distance_m >= passage.width_m / 2 - kAsNear_m)
-      passages.push_back(passage);
-  }
+  const auto near = NeighboursWithin(obstacles, most_m);
+  for (std::size_t i = 0; i < near.size(); ++i)
+    for (const Neighbour& other : near[i]) {
+      if (other.index < i) continue;  // the same pair
+      const auto passage = PassageBetween(obstacles.ShapeOf(i), obstacles.ShapeOf(other.index));
+      if (passage.width_m < least_m || passage.width_m > most_m) continue;
+      if (IsFree(passage, near[i], obstacles)) passages.push_back(passage);
+    }
   std::stable_sort(passages.begin(), passages.end(),
                    [](const NarrowPassage& a, const NarrowPassage& b) { return a.width_m < b.width_m; });
   std::vector<NarrowPassage> narrowest;

@@ -169,15 +169,25 @@ bool PoseEstimator::Doubt(std::size_t index) {
 
 namespace {
 
-double HeadingBy(const LandmarkFix& fix) {
-  return WrapAngle(fix.map_from_landmark.yaw - fix.base_from_landmark.yaw);
+/// The covariance of a fix without what the fixes before and after it repeat: of that a part changes with the
+/// place.
+Eigen::Matrix3d OwnCovariance(const LandmarkFix& fix) {
+  constexpr double kChanging = 0.25;
+  return fix.covariance * (fix.own_share + kChanging * (1 - fix.own_share));
 }
 
-/// Variance of a fix's heading without what the fixes before and after it repeat: of that a part changes with
-/// the place.
-double OwnVariance(const LandmarkFix& fix) {
-  constexpr double kChanging = 0.25;
-  return fix.covariance(2, 2) * (fix.own_share + kChanging * (1 - fix.own_share));
+/// The variance of where the second fix has the base, across the base at the first one.
+double AcrossVariance(const LandmarkFix& first, const LandmarkFix& second) {
+  const Pose2 &a = first.base_from_landmark, &b = second.base_from_landmark;
+  const double turn = a.yaw - b.yaw, c = std::cos(turn), s = std::sin(turn), lever = c * b.x - s * b.y;
+  const Eigen::RowVector3d by_first(0, 1, -lever), by_second(-s, -c, lever);
+  return (by_first * OwnCovariance(first) * by_first.transpose() +
+          by_second * OwnCovariance(second) * by_second.transpose())
+      .value();
+}
+
+bool IsSame(const Pose2& a, const Pose2& b) {
+  return a.x == b.x && a.y == b.y && a.yaw == b.yaw;
 }
 
 }  // namespace
@@ -195,14 +205,22 @@ void PoseEstimator::LearnSlip(std::size_t index, const LandmarkFix& fix, double 
   if (!TellsSlip(fix) || !(distance < 2 * config_.gate_distance)) return;
   const std::optional<LandmarkFix>& before = learnt_;
   if (!before || before->exposure >= fix.exposure || before->exposure < history_.front().step.to) return;
+  if (!IsSame(before->map_from_landmark, fix.map_from_landmark)) return;  // a plan is wrong between landmarks
   WheelsBetween wheels;
   for (std::size_t i = 0; i <= index; ++i)
     if (history_[i].step.to > before->exposure) wheels.Add(history_[i].step);
-  if (!wheels.usable() || std::abs(wheels.turn_rad()) > kMostTurn_rad || wheels.forward_m() < kLeast_m ||
+  if (!wheels.usable() || std::abs(wheels.driven().yaw) > kMostTurn_rad || wheels.forward_m() < kLeast_m ||
       wheels.forward_m() > kMost_m)
     return;
-  slip_.Add(WrapAngle(HeadingBy(fix) - HeadingBy(*before) - wheels.turn_rad()), wheels.variance(),
-            OwnVariance(fix) + OwnVariance(*before), wheels.forward_m());
+  const Pose2 moved = before->base_from_landmark * fix.base_from_landmark.Inverse();
+  slip_.AddTurn({.change = WrapAngle(moved.yaw - wheels.driven().yaw),
+                 .by_slip = wheels.turn_variance(),
+                 .by_fixes = OwnCovariance(fix)(2, 2) + OwnCovariance(*before)(2, 2),
+                 .forward_m = wheels.forward_m()});
+  slip_.AddAcross({.change = moved.y - wheels.driven().y,
+                   .by_slip = wheels.across_variance(),
+                   .by_fixes = AcrossVariance(*before, fix),
+                   .forward_m = wheels.forward_m()});
   slip_factor_ = slip_.factor();
 }
 

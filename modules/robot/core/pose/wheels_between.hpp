@@ -1,5 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
+
+#include "common/geometry.hpp"
 #include "robot/core/base/odometry.hpp"
 
 namespace priamos::robot {
@@ -7,21 +10,27 @@ namespace priamos::robot {
 /// What the wheels say of the way between two fixes, and how far slip may make that wrong.
 class WheelsBetween {
  public:
-  /// The next step. The slip keeps its sign for a while: it adds up with the turn that it has made already.
+  /// The next step. Slip keeps its sign for a while: it adds up with what it has made already.
   void Add(const OdometryStep& step);
 
-  double turn_rad() const { return turn_rad_; }
+  /// From the base at the first fix to that at the second one.
+  const Pose2& driven() const { return driven_; }
   double forward_m() const { return forward_m_; }
   /// Of the turn, by slip as configured [rad^2].
-  double variance() const { return variance_; }
+  double turn_variance() const { return covariance_(kTurn, kTurn); }
+  /// Across the way, likewise [m^2].
+  double across_variance() const { return covariance_(kAcross, kAcross); }
   /// Whether encoders were credible all the way.
   bool usable() const { return usable_; }
 
  private:
-  double turn_rad_ = 0, forward_m_ = 0, variance_ = 0;
-  bool usable_ = true;
-  double slip_ = 0, with_turn_ = 0;  ///< variance of the slip, and its covariance with the turn
-  bool begun_ = false;
+  /// The slips are per metre forward.
+  enum Index { kAcross, kTurn, kTurnSlip, kAcrossSlip };
+
+  Pose2 driven_;
+  double forward_m_ = 0;
+  bool usable_ = true, begun_ = false;
+  Eigen::Matrix4d covariance_ = Eigen::Matrix4d::Zero();
 };
 
 }  // namespace priamos::robot

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "common/random.hpp"
 #include "planner/core/path/passage_lanes.hpp"
 
 namespace priamos::planner {
@@ -58,6 +59,21 @@ TEST(NarrowPassagesTest, ACorridorIsAsLongAsBothOfItsWalls) {
   EXPECT_NEAR(dut[0].width_m, 1.04, 1e-9);
   EXPECT_NEAR(dut[0].map_from_passage.x, 0.5, 1e-9);
   EXPECT_NEAR(dut[0].half_long_m, 3.5, 1e-9);
+}
+
+TEST(NarrowPassagesTest, WhatIsFreeIsSoForAllObstaclesHoweverCrowded) {
+  for (const double side_m : {4.0, 9.0, 20.0}) {
+    Rng rng(7);
+    ObstacleMap map{GroundPlan{}};
+    for (int i = 0; i < 120; ++i)
+      map.Add("thing", {{rng.Uniform(0, side_m), rng.Uniform(0, side_m), rng.Uniform(-3, 3)},
+                        {rng.Uniform(0.01, 0.2), 0.02}});
+    for (const NarrowPassage& passage : NarrowPassagesOf(map, 0.9, 1.6))
+      EXPECT_NEAR(map.NearestTo({passage.map_from_passage, {0, 0}}).distance_m, passage.width_m / 2, 0.0101);
+    if (side_m > 5) {
+      EXPECT_GT(NarrowPassagesOf(map, 0.9, 1.6).size(), 5u);
+    }
+  }
 }
 
 TEST(PassageLanesTest, WithoutRoomTheyBeginNearer) {

@@ -15,7 +15,8 @@ double After(int n, double factor, double turn_rad_per_m, unsigned seed) {
   SlipScale scale;
   std::mt19937 random(seed);
   std::normal_distribution<double> normal(0, std::sqrt(factor * kSlip + kFixes));
-  for (int i = 0; i < n; ++i) scale.Add(normal(random) + turn_rad_per_m * kApart_m, kSlip, kFixes, kApart_m);
+  for (int i = 0; i < n; ++i)
+    scale.AddTurn({normal(random) + turn_rad_per_m * kApart_m, kSlip, kFixes, kApart_m});
   return scale.factor();
 }
 
@@ -32,6 +33,26 @@ TEST(SlipScale, FixesTellHowMuchTheWheelsSlip) {
   }
 }
 
+TEST(SlipScale, WhatGoesAsideTellsItAsWell) {
+  constexpr double kAside = 2.6e-6, kSeen = 2e-6;
+  double straight = 0, sideways = 0;
+  for (unsigned seed = 1; seed <= 50; ++seed) {
+    SlipScale turns_only, both;
+    std::mt19937 random(seed);
+    std::normal_distribution<double> turn(0, std::sqrt(kSlip + kFixes)),
+        aside(0, std::sqrt(6 * kAside + kSeen));
+    for (int i = 0; i < 12; ++i) {
+      const SlipResidual turned{turn(random), kSlip, kFixes, kApart_m};
+      turns_only.AddTurn(turned);
+      both.AddTurn(turned);
+      both.AddAcross({aside(random), kAside, kSeen, kApart_m});
+    }
+    straight += turns_only.factor() / 50;
+    sideways += both.factor() / 50;
+  }
+  EXPECT_GT(sideways, 1.4 * straight);
+}
+
 TEST(SlipScale, AConstantTurnIsNoSlip) {
   double sum = 0;
   for (unsigned seed = 1; seed <= 50; ++seed) sum += After(12, 1, 0.006, seed) / 50;
@@ -40,8 +61,8 @@ TEST(SlipScale, AConstantTurnIsNoSlip) {
 
 TEST(SlipScale, WhatIsNoNumberTellsNothing) {
   SlipScale scale;
-  scale.Add(std::nan(""), kSlip, kFixes, kApart_m);
-  scale.Add(0.1, 0, 0, kApart_m);
+  scale.AddTurn({std::nan(""), kSlip, kFixes, kApart_m});
+  scale.AddAcross({0.1, 0, 0, kApart_m});
   EXPECT_NEAR(scale.factor(), 1, 0.06);
 }
 
