@@ -1,0 +1,14 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "test/bench/rivals/driver.hpp"
+
+namespace priamos::bench {
+
+/// The robot's process as it is shipped in `deployment`, on a bus of its own, with a start pose known to 2 cm
+/// and 0.5 degrees. It is sent the path once, and nothing else: no plan, no fix, no second order.
+std::unique_ptr<Driver> OwnDriver(const Order& order, const std::string& deployment);
+
+}  // namespace priamos::bench
