@@ -27,6 +27,17 @@ double Depth(const Eigen::Vector2d& point, double margin_m) {
 
 }  // namespace
 
+void DynamicWindowConfig::Describe(Archive& a) {
+  a.Number("margin_m", margin_m, {"m", 0, 1, "added to the disc or the rectangle"});
+  a.Number("heading", heading, {"-", 0, 100, "weight"});
+  a.Number("distance", distance, {"-", 0, 100, "weight"});
+  a.Number("velocity", velocity, {"-", 0, 100, "weight"});
+  a.Number("braking_m_s2", braking_m_s2,
+           {"m/s^2", 0.01, 5, "with which it can be braked before what it meets"});
+  a.Number("window_s", window_s, {"s", 0.05, 5, "what can be reached in this time is the window"});
+  a.Number("look_m", look_m, {"m", 0.1, 10, "free distance beyond which more is no better"});
+}
+
 std::vector<Twist2> DynamicWindow::Window(const Situation& situation) const {
   const int n = turns() ? kOfRectangle : kOfDisc, n_turns = turns() ? kTurns : 0;
   const double reach = config_.acceleration_m_s2 * config_.window_s;

@@ -14,6 +14,8 @@ struct DynamicWindowConfig {
   double braking_m_s2 = 0.4;  ///< a velocity is admissible that can be braked before what it meets
   double window_s = 0.5;      ///< what can be reached in this time is the window
   double look_m = 1.5;        ///< free distance beyond which more is no better
+
+  void Describe(Archive& a);
 };
 
 /// The dynamic window of Fox, Burgard and Thrun (IEEE Robotics and Automation Magazine, 1997) for a holonomic

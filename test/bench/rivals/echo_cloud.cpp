@@ -17,6 +17,15 @@ Eigen::Vector2d CentreOf(const std::pair<int, int>& cell) {
 
 }  // namespace
 
+void EchoCloudConfig::Describe(Archive& a) {
+  a.Number("reach_m", reach_m, {"m", 0.3, 5, "echoes from farther away are left out"});
+  a.Number("half_arc_deg", half_arc_deg, {"deg", 0, 15, "part of the beam on which an echo is marked"});
+  a.Number("through_deg", through_deg, {"deg", 0, 15, "part of the beam that shows that there is nothing"});
+  a.Number("through_m", through_m, {"m", 0, 1, "nearer to the echo than this nothing is cleared"});
+  a.Number("keep_s", keep_s, {"s", 0.1, 600, "how long a mark counts"});
+  a.Number("near_m", near_m, {"m", 0, 5, "an echo from nearer counts at once"});
+}
+
 void EchoCloud::Add(const robot::SonarCycle& cycle, const Pose2& odom_from_base, Time now) {
   std::erase_if(marks_, [&](const auto& mark) { return Seconds(now - mark.second.newest) > config_.keep_s; });
   const Eigen::Vector2d footprint(kDrawnBody.length_m, kDrawnBody.width_m);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/archive.hpp"
 #include "robot/core/sonar/sonar_cycle.hpp"
 
 namespace priamos::bench {
@@ -17,6 +18,8 @@ struct EchoCloudConfig {
   double through_m = 0.15;  ///< nearer to the echo than this nothing is cleared
   double keep_s = 8;        ///< how long a mark counts that is neither renewed nor seen through
   double near_m = 0.3;      ///< an echo from nearer counts at once, others when a second one agrees
+
+  void Describe(Archive& a);
 };
 
 /// Memory of echoes in the frame of the odometry: marked cells of 5 cm that a second echo has confirmed,

@@ -18,6 +18,7 @@ struct Options {
   std::uint64_t first = 1, last = 20;
   std::vector<std::string> families, drivers;
   std::string deployment = PRIAMOS_SOURCE_DIR "/config/sim";
+  std::string tuning = PRIAMOS_SOURCE_DIR "/test/bench/rivals/tuning.toml";
   bool each = false;
 };
 
@@ -34,15 +35,19 @@ void PrintDrive(const std::string& driver, std::uint64_t seed, const bench::Driv
 
 std::vector<bench::Row> RowsOf(const Options& options, const std::string& family,
                                const world::RobotModel& model) {
+  std::vector<bench::DriverKind> kinds;
   std::vector<bench::Row> rows;
-  for (const bench::DriverKind& kind : bench::AllDrivers(options.deployment)) {
+  for (bench::DriverKind& kind : bench::AllDrivers(options.deployment, options.tuning)) {
     if (!IsChosen(options.drivers, kind.name)) continue;
     rows.push_back({kind.name, {}});
-    for (std::uint64_t seed = options.first; seed <= options.last; ++seed) {
-      const bench::Case task = bench::MakeCase(family, seed, options.deployment);
-      const auto driver = kind.make(task.order);
-      rows.back().drives.push_back(bench::DriveCase(task, model, *driver, seed));
-      if (options.each) PrintDrive(kind.name, seed, rows.back().drives.back());
+    kinds.push_back(std::move(kind));
+  }
+  for (std::uint64_t seed = options.first; seed <= options.last; ++seed) {
+    const bench::Case task = bench::MakeCase(family, seed, options.deployment);
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+      const auto driver = kinds[i].make(task.order);
+      rows[i].drives.push_back(bench::DriveCase(task, model, *driver, seed));
+      if (options.each) PrintDrive(kinds[i].name, seed, rows[i].drives.back());
     }
   }
   return rows;
@@ -81,6 +86,7 @@ int main(int argc, char** argv) {
   cli.add_option("--families", options.families, "which worlds (default: all)");
   cli.add_option("--drivers", options.drivers, "which drivers (default: all)");
   cli.add_option("--deployment", options.deployment, "folder of configurations");
+  cli.add_option("--tuning", options.tuning, "file of the rivals' parameters");
   cli.add_flag("--each", options.each, "print every drive");
   CLI11_PARSE(cli, argc, argv);
   try {

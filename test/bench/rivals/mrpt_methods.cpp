@@ -86,6 +86,9 @@ std::unique_ptr<Method> MrptNearness(const MrptConfig& config) {
   auto method = std::make_unique<mrpt::nav::CHolonomicND>();
   method->options.TOO_CLOSE_OBSTACLE = config.too_close_m / config.reach_m;
   method->options.RISK_EVALUATION_DISTANCE = config.slow_m / config.reach_m;
+  method->options.WIDE_GAP_SIZE_PERCENT = config.wide_gap;
+  method->options.RISK_EVALUATION_SECTORS_PERCENT = config.risk_sectors;
+  if (!config.weights.empty()) method->options.factorWeights = config.weights;
   return std::make_unique<MrptMethod>(config, std::move(method), false);
 }
 
@@ -93,6 +96,8 @@ std::unique_ptr<Method> MrptFullEval(const MrptConfig& config) {
   auto method = std::make_unique<mrpt::nav::CHolonomicFullEval>();
   method->options.TOO_CLOSE_OBSTACLE = config.too_close_m / config.reach_m;
   method->options.OBSTACLE_SLOW_DOWN_DISTANCE = config.slow_m / config.reach_m;
+  if (!config.weights.empty()) method->options.factorWeights = config.weights;
+  if (!config.thresholds.empty()) method->options.PHASE_THRESHOLDS = config.thresholds;
   return std::make_unique<MrptMethod>(config, std::move(method), true);
 }
 

@@ -17,6 +17,16 @@ robot::WheelSample SampleOf(const world::WheelSample& heard) {
 
 }  // namespace
 
+void RivalConfig::Describe(Archive& a) {
+  a.Section("echoes", echoes, "memory of echoes");
+  a.Number("ahead_m", ahead_m, {"m", 0.1, 10, "the target is so far ahead on the path"});
+  a.Number("turn_gain", turn_gain, {"1/s", 0, 10, "turn rate per angle of the heading"});
+  a.Number("most_turn_rad_s", most_turn_rad_s, {"rad/s", 0, 2, "fastest turn"});
+  a.Flag("along_motion", along_motion, "the heading follows the motion, else the path");
+  a.Number("slow_from_rad", slow_from_rad, {"rad", 0.01, 10, "heading farther off: slower"});
+  a.Integer("steps_per_choice", steps_per_choice, {"-", 1, 50, "of 20 ms"});
+}
+
 RivalDriver::RivalDriver(const Order& order, const RivalConfig& config, std::unique_ptr<Method> method)
     : config_(config),
       method_(std::move(method)),

@@ -39,6 +39,8 @@ struct RivalConfig {
   bool along_motion = true;      ///< the heading follows the motion; else the path
   double slow_from_rad = 0.5;    ///< where the heading is farther off, it drives the slower
   int steps_per_choice = 2;      ///< of 20 ms
+
+  void Describe(Archive& a);
 };
 
 /// A rival: odometry, echoes remembered, a target drawn along the path, limits of acceleration as the robot

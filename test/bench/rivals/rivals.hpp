@@ -7,7 +7,8 @@
 
 namespace priamos::bench {
 
-/// All drivers of the table, the robot first. Without MRPT's navigation those of MRPT are missing.
-std::vector<DriverKind> AllDrivers(const std::string& deployment);
+/// All drivers of the table, the robot first, then those of the file `tuning`. Without MRPT's navigation its
+/// rows are missing. Throws ConfigError.
+std::vector<DriverKind> AllDrivers(const std::string& deployment, const std::string& tuning);
 
 }  // namespace priamos::bench
