@@ -6,6 +6,7 @@
 #include "common/config.hpp"
 #include "test/bench/rivals/case.hpp"
 #include "test/bench/rivals/drive.hpp"
+#include "test/bench/rivals/grid_figures.hpp"
 #include "test/bench/rivals/rivals.hpp"
 #include "test/bench/rivals/table.hpp"
 #include "world/world_config.hpp"
@@ -19,7 +20,7 @@ struct Options {
   std::vector<std::string> families, drivers;
   std::string deployment = PRIAMOS_SOURCE_DIR "/config/sim";
   std::string tuning = PRIAMOS_SOURCE_DIR "/test/bench/rivals/tuning.toml";
-  bool each = false;
+  bool each = false, grids = false;
 };
 
 template <class T>
@@ -53,6 +54,22 @@ std::vector<bench::Row> RowsOf(const Options& options, const std::string& family
   return rows;
 }
 
+/// The robot's drives again, with grids that watch them.
+void CompareGrids(const Options& options, const std::string& family, const world::RobotModel& model) {
+  const auto kinds = bench::AllGrids();
+  const bench::DriverKind robot = bench::AllDrivers(options.deployment, options.tuning).front();
+  std::vector<bench::GridFigures> figures(kinds.size());
+  for (std::uint64_t seed = options.first; seed <= options.last; ++seed) {
+    const bench::Case task = bench::MakeCase(family, seed, options.deployment);
+    bench::GridWatch watch(task, kinds, figures);
+    const auto driver = robot.make(task.order);
+    bench::DriveCase(task, model, *driver, seed,
+                     [&](const bench::Heard& heard, const Pose2& at) { watch.See(heard, at); });
+  }
+  fmt::print("{}, the robot's drives, seeds {} to {}\n", family, options.first, options.last);
+  bench::PrintGrids(kinds, figures);
+}
+
 void PrintDefeats(const std::vector<std::string>& defeats) {
   if (defeats.empty()) return fmt::print("beaten nowhere: in passes, contacts, time where both pass\n");
   fmt::print("beaten in:\n");
@@ -67,12 +84,16 @@ void Run(const Options& options) {
   std::vector<std::string> defeats;
   for (const bench::Family& family : bench::Families()) {
     if (!IsChosen(options.families, family.name)) continue;
+    if (options.grids) {
+      CompareGrids(options, family.name, model);
+      continue;
+    }
     const auto rows = RowsOf(options, family.name, model);
     bench::PrintTable(
         fmt::format("{}: {}; seeds {} to {}", family.name, family.what, options.first, options.last), rows);
     for (std::string& defeat : bench::Defeats(family.name, rows)) defeats.push_back(std::move(defeat));
   }
-  PrintDefeats(defeats);
+  if (!options.grids) PrintDefeats(defeats);
 }
 
 }  // namespace
@@ -87,6 +108,7 @@ int main(int argc, char** argv) {
   cli.add_option("--drivers", options.drivers, "which drivers (default: all)");
   cli.add_option("--deployment", options.deployment, "folder of configurations");
   cli.add_option("--tuning", options.tuning, "file of the rivals' parameters");
+  cli.add_flag("--grids", options.grids, "compare maps of echoes, not drivers");
   cli.add_flag("--each", options.each, "print every drive");
   CLI11_PARSE(cli, argc, argv);
   try {
