@@ -74,11 +74,12 @@ Order OrderBy(const GroundPlan& plan, const Pose2& start, const Pose2& goal,
   const planner::RoutePlanner planner({}, {}, plan);
   if (auto found = planner.FindPath(start, {goal})) {
     const planner::PlannedPath route = planner::FirstPart(std::move(*found));
-    return {start, {.id = 1, .speed_m_s = kPathSpeed_m_s, .points = route.points, .leeway = route.leeway}};
+    return {
+        start, {.id = 1, .speed_m_s = kPathSpeed_m_s, .points = route.points, .leeway = route.leeway}, plan};
   }
   std::vector<Pose2> points = instead;
   points.push_back(goal);
-  return {start, Over(points)};
+  return {start, Over(points), plan};
 }
 
 bool CircleFits(const std::vector<world::Solid>& solids, const Pose2& from, const Pose2& to,

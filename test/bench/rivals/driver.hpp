@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/ground_plan.hpp"
 #include "robot/core/motion/path_shape.hpp"
 #include "world/core/simulation.hpp"
 
@@ -27,10 +28,12 @@ class Driver {
   virtual std::optional<world::PerWheel> Step(const Heard& heard, Time now) = 0;
 };
 
-/// What a driver is ordered: the pose at the start, and the path, both in the map frame.
+/// What a driver is ordered: the pose at the start, and the path, both in the map frame; and the plan by
+/// which the planner found it.
 struct Order {
   Pose2 start;
   robot::Path path;
+  GroundPlan plan{};
 };
 
 /// A driver by its name in the table.

@@ -6,6 +6,7 @@
 #include "common/config.hpp"
 #include "lcmtypes/channels.hpp"
 #include "robot/robot_app.hpp"
+#include "test/bench/rivals/replanning.hpp"
 #include "world/world_messages.hpp"
 
 namespace priamos::bench {
@@ -45,8 +46,11 @@ const bus::Schema& Types() {
 
 class RobotDriver : public Driver {
  public:
-  RobotDriver(const Order& order, const std::string& deployment)
-      : path_(order.path), app_(ConfigFor(order, deployment), context_) {}
+  RobotDriver(const Order& order, const std::string& deployment, bool replans)
+      : path_(order.path),
+        replanning_(order),
+        replans_(replans),
+        app_(ConfigFor(order, deployment), context_) {}
 
   std::optional<world::PerWheel> Step(const Heard& heard, Time now) override {
     clock_.Set(now);
@@ -55,12 +59,19 @@ class RobotDriver : public Driver {
     bus_.Drain();
     app_.Tick(now);
     bus_.Drain();
+    if (replans_) Replan(now);
     const auto command = command_.Take();
     if (!command) return std::nullopt;
     return world::FromMessage(*command);
   }
 
  private:
+  void Replan(Time now) {
+    const pose_t* pose = pose_.get();
+    if (!status_.get() || !pose) return;
+    const auto path = replanning_.Next(*status_.get(), {pose->x_m, pose->y_m, pose->yaw_rad}, now);
+    if (path) paths_.Publish(MessageOf(*path, status_.get()->estop_changes, now));
+  }
   void Send(const Heard& heard) {
     if (heard.wheels) wheels_.Publish(world::ToMessage(*heard.wheels));
     if (heard.sonars) sonars_.Publish(world::ToMessage(*heard.sonars));
@@ -77,6 +88,8 @@ class RobotDriver : public Driver {
   }
 
   robot::Path path_;
+  Replanning replanning_;
+  bool replans_;
   bus::SimulatedClock clock_{FromUtime(1'000'000'000)};
   bus::LcmBus bus_{"memq://"};
   bus::Node node_{bus_, Types(), clock_}, other_{bus_, Types(), clock_};
@@ -89,13 +102,14 @@ class RobotDriver : public Driver {
   bus::Publisher<path_t> paths_ = other_.Advertise(channels::kPath);
   bus::Latest<wheel_command_t> command_ = other_.Subscribe(channels::kWheelCommand);
   bus::Latest<drive_status_t> status_ = other_.Subscribe(channels::kDriveStatus);
+  bus::Latest<pose_t> pose_ = other_.Subscribe(channels::kPose);
   int steps_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<Driver> OwnDriver(const Order& order, const std::string& deployment) {
-  return std::make_unique<RobotDriver>(order, deployment);
+std::unique_ptr<Driver> OwnDriver(const Order& order, const std::string& deployment, bool replans) {
+  return std::make_unique<RobotDriver>(order, deployment, replans);
 }
 
 }  // namespace priamos::bench

@@ -27,7 +27,10 @@ std::unique_ptr<Method> MethodOf(const RivalTuning& tuning) {
 
 std::vector<DriverKind> AllDrivers(const std::string& deployment, const std::string& tuning) {
   std::vector<DriverKind> kinds;
-  kinds.push_back({"robot", [deployment](const Order& order) { return OwnDriver(order, deployment); }});
+  for (const bool replans : {false, true})
+    kinds.push_back({replans ? "robot, planner" : "robot", [deployment, replans](const Order& order) {
+                       return OwnDriver(order, deployment, replans);
+                     }});
   for (const RivalTuning& rival : LoadConfig<Tuning>(tuning).rivals)
     if (MethodOf(rival))
       kinds.push_back({rival.name, [rival](const Order& order) {
