@@ -10,7 +10,7 @@
 namespace priamos::robot {
 namespace {
 
-constexpr double kStep_m = 0.05;  ///< between two places, along the path and beside it
+constexpr double kStep_m = 0.05;   ///< between two places, along the path and beside it
 constexpr double kToLane_m = 0.3;  ///< on so much of the path a base gets into the middle of its lane
 constexpr int kLanes = 81, kMiddle = kLanes / 2;
 constexpr double kOnPath_m = 0.1;

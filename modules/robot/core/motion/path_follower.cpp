@@ -116,8 +116,8 @@ PathFollower::Wanted PathFollower::Step(const Pose2& pose, const Twist2& twist, 
   return wanted;
 }
 
-/// Beside its goal a base is at the end only of a way that was looked for there: from farther back it could not
-/// see, or not reach, how it gets to the goal itself.
+/// Beside its goal a base is at the end only of a way that was looked for there: from farther back it could
+/// not see, or not reach, how it gets to the goal itself.
 bool PathFollower::IsAtGoal(const Pose2& pose) const {
   if (detour_.leaves() && detour_.from() < shape_->length() - kLookedAtEnd_m) return false;
   if (shape_->length() - s_ > PathShape::kTurnLever * Radians(config_.arrival_deg) + config_.arrival_m)
