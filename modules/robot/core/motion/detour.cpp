@@ -10,7 +10,8 @@
 namespace priamos::robot {
 namespace {
 
-constexpr double kStep_m = 0.05;  ///< between two places, along the path and beside it
+constexpr double kStep_m = 0.05;   ///< between two places, along the path and beside it
+constexpr double kToLane_m = 0.3;  ///< on so much of the path a base gets into the middle of its lane
 constexpr int kLanes = 81, kMiddle = kLanes / 2;
 constexpr double kOnPath_m = 0.1;
 constexpr int kSteepest = 2;  ///< lanes per step
@@ -25,7 +26,7 @@ constexpr double kNear = 8;      ///< nearer to a thing than wished
 /// In a narrow passage, whose jambs seem to be broader than they are: as if they were so much farther off.
 constexpr std::array<std::pair<double, double>, 4> kInto{{{0, 100}, {0.05, 200}, {0.1, 400}, {0.15, 800}}};
 constexpr double kOutside = 20;  ///< per metre beyond the leeway
-constexpr double kMissed = 5;    ///< per metre beside the end of the path, once
+constexpr double kMissed = 20;   ///< per metre beside the end of the path, once: more than the way back there
 constexpr double kSideways = 3;  ///< straight to the side
 
 using Lanes = std::array<double, kLanes>;
@@ -221,6 +222,13 @@ int StartLane(double offset_m, const Leeway& leeway, const Detour& last) {
   return kMiddle + std::clamp(static_cast<int>(std::lround(offset_m / kStep_m)), -kMiddle, kMiddle);
 }
 
+/// A way over lanes begins where the base is, `off_m` beside the middle of its lane.
+std::vector<double> BegunBeside(double off_m, std::vector<double> offsets) {
+  for (std::size_t k = 0; k < offsets.size(); ++k)
+    offsets[k] += off_m * std::max(0.0, 1 - static_cast<double>(k) * kStep_m / kToLane_m);
+  return offsets;
+}
+
 std::vector<double> Smoothed(const std::vector<double>& offsets) {
   std::vector<double> smooth = offsets;
   for (std::size_t k = 1; k + 1 < offsets.size(); ++k)
@@ -269,10 +277,13 @@ std::optional<Detour> FindDetour(const DetourConfig& config, const Footprint& fo
   for (std::size_t k = 1; k < stations.size(); ++k)
     reached.push_back(GoAhead(reached.back(), CostsAt(search, stations[k])));
   while (IsUnreachable(reached.back())) reached.pop_back();
-  if (reached.size() < 2) return std::nullopt;
+  if (reached.size() < 2 && stations.size() > 1) return std::nullopt;
   const bool to_the_end = path.length() - here.s <= config.horizon_m && reached.size() == stations.size();
   const int best = CheapestLane(reached.back().cost, to_the_end ? kMissed : 0);
-  return Detour(here.s, kStep_m, Smoothed(Smoothed(Backwards(reached, best))));
+  auto offsets = Smoothed(Smoothed(Backwards(reached, best)));
+  if (start != kMiddle && offsets.size() > 1)
+    offsets = BegunBeside(std::clamp(here.offset_m - OffsetOf(start), -kStep_m, kStep_m), std::move(offsets));
+  return Detour(here.s, kStep_m, std::move(offsets));
 }
 
 }  // namespace priamos::robot

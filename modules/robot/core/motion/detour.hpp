@@ -40,6 +40,8 @@ class Detour {
     same.from_ -= s;
     return same;
   }
+  /// Where it was looked for: the arc length at which it begins.
+  double from() const { return from_; }
   /// Whether it leaves the path anywhere.
   bool leaves() const { return leaves_; }
 

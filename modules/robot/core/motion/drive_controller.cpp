@@ -251,7 +251,7 @@ Twist2 DriveController::WantedByPath(const DriveSituation& situation, const Obst
   }
   if (!follower_.has_path()) return {};
   if (path_->centre) KeepCentred(situation, now);
-  follower_.Avoid(ThingsInMap(situation, around, now), estimate.pose, now);
+  follower_.Avoid(ThingsInMap(situation, around, now), now);
   const double age_s = std::clamp(Seconds(now - estimate.time), 0.0, config_.failsafe.wheels_silent_s);
   const PathFollower::Wanted wanted = follower_.Step(estimate.pose, estimate.twist, age_s, dt_s);
   state_.remaining_m = wanted.remaining_m;

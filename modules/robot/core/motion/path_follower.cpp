@@ -9,6 +9,7 @@ namespace {
 // Distance [m] that the base drives at most while a path comes over the radio.
 constexpr double kPassedAtMost = 0.3;
 constexpr double kNearPath_m = 0.3;
+constexpr double kLookedAtEnd_m = 0.02;
 
 struct Begin {
   Pose2 start;
@@ -57,6 +58,7 @@ void PathFollower::Follow(const Path& path, const Pose2& pose) {
   const Begin begin = WithoutPassedPoint(path, pose);
   shape_.emplace(config_.shape, begin.start, begin.path);
   detour_ = {};
+  ahead_ = pose;
   s_ = 0;
   speed_ = 0;
   arrived_ = false;
@@ -68,10 +70,10 @@ void PathFollower::Realign(const Path& path, const Pose2& start) {
   s_ = 0;
 }
 
-void PathFollower::Avoid(std::span<const Eigen::Vector2d> things, const Pose2& pose, Time now) {
+void PathFollower::Avoid(std::span<const Eigen::Vector2d> things, Time now) {
   if (!shape_ || (searched_ && now - *searched_ < FromSeconds(config_.detour.replan_s))) return;
   searched_ = now;
-  if (const auto detour = FindDetour(config_.detour, footprint_, *shape_, PlaceOf(pose), things, detour_))
+  if (const auto detour = FindDetour(config_.detour, footprint_, *shape_, Place(), things, detour_))
     detour_ = *detour;
 }
 
@@ -89,7 +91,7 @@ void PathFollower::Drop() {
 PathFollower::Wanted PathFollower::Step(const Pose2& pose, const Twist2& twist, double age_s, double dt_s) {
   if (!shape_) return {};
   // Act on where the base will be when the wheels obey.
-  const Pose2 ahead = Integrate(pose, twist, age_s + config_.latency_s);
+  const Pose2 ahead = ahead_ = Integrate(pose, twist, age_s + config_.latency_s);
   MoveReference(ahead, dt_s);
   Wanted wanted = Report(pose, shape_->At(s_));
   const PathShape::Point reference = ReferenceAt(s_);
@@ -114,7 +116,10 @@ PathFollower::Wanted PathFollower::Step(const Pose2& pose, const Twist2& twist, 
   return wanted;
 }
 
+/// Beside its goal a base is at the end only of a way that was looked for there: from farther back it could
+/// not see, or not reach, how it gets to the goal itself.
 bool PathFollower::IsAtGoal(const Pose2& pose) const {
+  if (detour_.leaves() && detour_.from() < shape_->length() - kLookedAtEnd_m) return false;
   if (shape_->length() - s_ > PathShape::kTurnLever * Radians(config_.arrival_deg) + config_.arrival_m)
     return false;
   const Pose2 goal = ReferenceAt(shape_->length()).pose;
@@ -144,9 +149,10 @@ PathShape::Point PathFollower::ReferenceAt(double s) const {
   return point;
 }
 
-PathPlace PathFollower::PlaceOf(const Pose2& pose) const {
+/// s_ is beside `ahead_`, too.
+PathPlace PathFollower::Place() const {
   const PathShape::Point point = shape_->At(s_);
-  return {s_, point.left().dot(pose.translation() - point.pose.translation())};
+  return {s_, point.left().dot(ahead_.translation() - point.pose.translation())};
 }
 
 PathFollower::Wanted PathFollower::Report(const Pose2& pose, const PathShape::Point& reference) const {

@@ -57,7 +57,7 @@ class PathFollower {
   void Realign(const Path& path, const Pose2& start);
   /// Looks, a few times per second, for a way around `things` (map frame [m]) within the leeway of the path,
   /// and goes by it. A way that was found stays until there is a better one.
-  void Avoid(std::span<const Eigen::Vector2d> things, const Pose2& pose, Time now);
+  void Avoid(std::span<const Eigen::Vector2d> things, Time now);
   /// Changes the fastest speeds, also on the path that is being driven.
   void LimitSpeeds(const PathShapeConfig& limits);
   /// Drops the path; Step then returns a velocity of 0.
@@ -78,7 +78,7 @@ class PathFollower {
   bool IsAtGoal(const Pose2& pose) const;
   void MoveReference(const Pose2& pose, double dt_s);
   PathShape::Point ReferenceAt(double s) const;
-  PathPlace PlaceOf(const Pose2& pose) const;
+  PathPlace Place() const;
   Wanted Report(const Pose2& pose, const PathShape::Point& reference) const;
 
   PathFollowerConfig config_;
@@ -86,6 +86,7 @@ class PathFollower {
   std::optional<PathShape> shape_;
   Detour detour_;
   std::optional<Time> searched_;  ///< when a way around things was looked for
+  Pose2 ahead_;                   ///< where the base will be when the wheels obey
   double s_ = 0;                  ///< arc length of the reference point on the path [m]
   double speed_ = 0;              ///< last wanted ds/dt [m/s]
   bool arrived_ = false;

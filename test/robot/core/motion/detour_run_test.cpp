@@ -50,6 +50,19 @@ TEST(DetourRun, DrivesAroundABoxOnItsPath) {
   EXPECT_GE(arrived, 19);
 }
 
+/// The last bit of a path may not be left: a planner that wants its goal reached orders it so.
+TEST(DetourRun, AroundABoxShortlyBeforeItsGoalItArrivesThereAndNotBesideIt) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Rng rng = Rng::Stream(seed, "last box");
+    RobotRig rig(seed, {}, {}, {}, BoxAt(rng.Uniform(3.2, 3.5), rng.Uniform(-0.2, 0.2), 0.4));
+    rig.SetPath({.id = 1, .speed_m_s = 0.3, .points = {{4.4, 0, 0}, {5, 0, 0}}, .leeway = {kWide, {}}});
+    for (int tick = 0; tick < 50 * 60 && rig.state().mode != DriveMode::kArrived; ++tick) rig.Tick();
+    EXPECT_EQ(rig.state().mode, DriveMode::kArrived) << seed;
+    const Pose2 believed = rig.localiser().estimate()->pose;
+    EXPECT_LT((believed.translation() - Eigen::Vector2d(5, 0)).norm(), 0.02) << seed;
+  }
+}
+
 TEST(DetourRun, WithoutLeewayItStandsBeforeABox) {
   const Drive drive = DriveAlong(2, BoxAt(2.5, 0.1, 0.2), {});
   EXPECT_FALSE(drive.arrived);

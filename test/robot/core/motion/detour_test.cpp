@@ -142,6 +142,26 @@ TEST_F(DetourTest, MissesAnEndThatIsNotFree) {
   EXPECT_GT(std::abs(detour->At(2)), 0.6);
 }
 
+TEST_F(DetourTest, FromBesideItsEndItGoesBackToIt) {
+  const PathShape path(
+      PathShapeConfig{}, {},
+      {.id = 1, .speed_m_s = 0.3, .points = {{3.4, 0, 0}, {4, 0, 0}}, .leeway = {kWide, {}}});
+  const Detour last(0, 0.05, std::vector<double>(81, 0.55));
+  for (const double left_m : {0.03, 0.0}) {
+    const auto detour = Find(path, Square(2, -0.5, 0.2), {path.length() - left_m, 0.55}, last);
+    ASSERT_TRUE(detour) << left_m;
+    EXPECT_NEAR(detour->At(path.length()), 0, 0.03) << left_m;
+  }
+}
+
+TEST_F(DetourTest, BeginsWhereTheBaseIsAndNotInTheMiddleOfALane) {
+  const PathShape path = Straight(kWide);
+  const auto detour =
+      Find(path, Square(2, 0, 0.2), {0.6, 0.424}, Detour(0, 0.05, std::vector<double>(60, 0.4)));
+  ASSERT_TRUE(detour);
+  EXPECT_NEAR(detour->At(0.6), 0.424, 0.005);
+}
+
 RC_GTEST_PROP(Detour, TakesThingsAnywhereAndHeadingsAlmostStraight, (const unsigned seed)) {
   Rng rng(seed);
   const double turn = std::pow(10.0, rng.Uniform(-12, 0));
