@@ -49,6 +49,7 @@ struct GraphPointSight {
 
 /// A line or a point of the graph; each has two unknowns: direction and offset, or x and y.
 struct GraphNode {
+  /// What a node stands for.
   enum class Kind { kLine, kPoint };
   Kind kind = Kind::kLine;
   int index = 0;

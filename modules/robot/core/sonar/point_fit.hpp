@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "robot/core/sonar/echo_errors.hpp"
-#include "robot/core/sonar/wall_segment.hpp"
+#include "robot/core/sonar/placed_echo.hpp"
 
 namespace priamos::robot {
 
