@@ -43,7 +43,10 @@ std::optional<SeenFeature> FromMessage(int store, const feature_t& m) {
                     Within(m.sigma_end_m, 0, 0.6) && IsTime(m.utime_seen);
   if (!good) return std::nullopt;
   const double seen_s = static_cast<double>(m.utime_seen) * 1e-6;
-  if (is_point) return SeenFeature{store, m.id, LearnedPoint{m.x_m, m.y_m, m.sigma_across_m, seen_s}};
+  if (is_point) {
+    const LearnedPoint point{m.x_m, m.y_m, m.sigma_across_m, seen_s};
+    return SeenFeature{store, m.id, point, m.sigma_end_m, m.yaw_rad - kPi / 2};
+  }
   if (!is_wall) return SeenFeature{store, m.id};
   LearnedWall wall;
   wall.x_m = m.x_m;

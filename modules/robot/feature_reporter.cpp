@@ -51,7 +51,7 @@ FeatureReporter::FeatureReporter(const RobotConfig& config, bus::Context& contex
       noise_(config.localiser.odometry.noise),
       context_(context),
       finder_(config.walls, noise_, config.drive.footprint),
-      points_(config.points),
+      points_(config.points, noise_),
       acks_(context.node().SubscribeAll(channels::kFeaturesAck)),
       features_(context.node().Advertise(channels::kFeatures)) {}
 

@@ -62,6 +62,8 @@ TEST(FeatureMessage, APointIsOneWithoutLength) {
   ASSERT_TRUE(dut);
   EXPECT_EQ(dut->at(), Eigen::Vector2d(message.x_m, message.y_m));
   EXPECT_EQ(dut->sigma_m, message.sigma_across_m);
+  EXPECT_EQ(seen->own_sigma_m, message.sigma_end_m);
+  EXPECT_EQ(seen->towards_rad, message.yaw_rad - kPi / 2) << "a point is told as a wall that faces the base";
   message.x_m = 1e9;
   EXPECT_FALSE(FromMessage(9, message));
 }

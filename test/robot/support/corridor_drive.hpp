@@ -20,7 +20,9 @@ class CorridorDrive {
         sonars_(seed, std::move(surfaces)),
         sound_(1 + Rng::Stream(seed, "sound speed").Uniform(-0.004, 0.004)),
         odometry_(OdometryConfig{}, MecanumGeometry{}),
-        dut_(config, OdometryNoise{}, Footprint{}) {}
+        dut_(config, OdometryNoise{}, Footprint{}) {
+    sonars_.FireInGroups(config.groups);
+  }
 
   SegmentFinder::OfPoint of_point{};  ///< which echoes can be of a known point
 

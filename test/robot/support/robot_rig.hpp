@@ -21,7 +21,7 @@ class RobotRig {
         sonars_(seed, std::move(surfaces)),
         localiser_(localiser, MecanumGeometry(), drive.footprint),
         drive_(drive, MecanumGeometry()),
-        finder_({}, localiser.odometry.noise, drive.footprint) {}
+        finder_({.groups = 1}, localiser.odometry.noise, drive.footprint) {}
 
   bool wheels_answer = true, sonars_answer = true, wheels_turn = true, head_answers = true;
   bool finds_walls = false;  ///< the controller is told of walls that the ring shows

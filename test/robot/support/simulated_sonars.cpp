@@ -23,8 +23,12 @@ std::vector<Surface> BoxSides(double x_min, double y_min, double x_max, double y
 
 SonarCycle SimulatedSonars::Listen(Time time, const Pose2& map_from_base) {
   SonarCycle cycle{.time = time};
+  const Pose2 back = map_from_base.Inverse() * before_.value_or(map_from_base);
+  before_ = map_from_base;
   for (int i = 0; i < kSonars; ++i) {
-    double range = FirstEcho(map_from_base * BaseFromSonar(i, Footprint{}.Size()));
+    const double share = (groups_ - 1 - i % groups_) / static_cast<double>(groups_);
+    const Pose2 base = map_from_base * Pose2{share * back.x, share * back.y, share * back.yaw};
+    double range = FirstEcho(base * BaseFromSonar(i, Footprint{}.Size()));
     if (rng_.Chance(false_echoes_)) range = rng_.Uniform(0.1, 3);
     cycle.range_m[static_cast<std::size_t>(i)] = range;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "common/geometry.hpp"
@@ -29,6 +30,9 @@ class SimulatedSonars {
   void Add(const std::vector<Surface>& surfaces) {
     surfaces_.insert(surfaces_.end(), surfaces.begin(), surfaces.end());
   }
+  /// Sensors i, i + groups, ... fire together from now on: the last of them where a cycle ends, the others on
+  /// the way there from where the cycle before ended.
+  void FireInGroups(int groups) { groups_ = groups; }
   SonarCycle Listen(Time time, const Pose2& map_from_base);
 
   /// Distance from the true footprint to the nearest surface; negative when one is inside.
@@ -40,6 +44,8 @@ class SimulatedSonars {
   Rng rng_;
   std::vector<Surface> surfaces_;
   double false_echoes_ = 0;
+  int groups_ = 1;
+  std::optional<Pose2> before_;  ///< where the cycle before ended
 };
 
 }  // namespace priamos::robot

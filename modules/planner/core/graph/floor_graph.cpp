@@ -29,6 +29,8 @@ void FloorGraphConfig::Describe(Archive& a) {
   a.Number("gate", gate, {"-", 0.5, 10, "Mahalanobis distance up to which two walls may be one"});
   a.Number("apart", apart, {"-", 1, 20, "as far is every other wall that could be meant"});
   a.Number("alone_m", alone_m, {"m", 0.01, 2, "three sigmas; known worse, other walls have to agree"});
+  a.Flag("points", points, "corners and edges that are met again tie poses together");
+  a.Number("point_m", point_m, {"m", 0.005, 0.5, "least sigma of a point in either direction"});
 }
 
 void FloorGraph::Reset() {
@@ -83,7 +85,7 @@ void FloorGraph::Note(const SeenFeature& seen) {
   if (!seen.wall()) told_.erase(seen.name());
   if (!seen.point()) points_.erase(seen.name());
   if (const LearnedWall* wall = seen.wall()) NoteWall(seen.name(), *wall);
-  if (const LearnedPoint* point = seen.point()) NotePoint(seen.name(), *point);
+  if (const LearnedPoint* point = seen.point()) NotePoint(seen, *point);
 }
 
 void FloorGraph::NoteWall(const FeatureName& name, const LearnedWall& wall) {
@@ -100,10 +102,16 @@ void FloorGraph::NoteWall(const FeatureName& name, const LearnedWall& wall) {
   told_[name] = told;
 }
 
-void FloorGraph::NotePoint(const FeatureName& name, const LearnedPoint& point) {
-  const int key = KeyAt(point.seen_s);
-  const Vector2d in_key = keys_[std::size_t(key)].robot_frame_from_base.Inverse() * point.at();
-  points_[name] = {key, in_key, point};
+void FloorGraph::NotePoint(const SeenFeature& seen, const LearnedPoint& point) {
+  const auto before = points_.find(seen.name());
+  GraphPointSight sight{.pose = KeyAt(point.seen_s), .point = -1};
+  sight.base_from_point = keys_[std::size_t(sight.pose)].robot_frame_from_base.Inverse() * point.at();
+  sight.sigma_m = std::max(config_.point_m, seen.own_sigma_m / std::sqrt(2.0));  // told of both directions
+  if (before != points_.end()) sight.point = before->second.sight.point;
+  if (sight.point < 0) sight.point = graph_.AddPoint(graph_.pose(sight.pose) * sight.base_from_point);
+  if (config_.points) graph_.Add(sight);
+  const double towards_rad = seen.towards_rad - keys_[std::size_t(sight.pose)].robot_frame_from_base.yaw;
+  points_[seen.name()] = {sight, point, {std::cos(towards_rad), std::sin(towards_rad)}};
 }
 
 bool FloorGraph::Settle() {
@@ -183,7 +191,9 @@ LearnedWalls FloorGraph::Walls() const {
   for (const auto& [name, told] : told_)
     if (!IsOnLine(told)) add(told.wall, graph_.pose(told.key) * told.key_from_middle, told.wall.length_m);
   for (const auto& [name, told] : points_) {
-    const Vector2d at = graph_.pose(told.key) * told.in_key;
+    const bool fits = config_.points && graph_.DistanceOf(told.sight) < kOffLine;
+    const Vector2d at =
+        fits ? graph_.point(told.sight.point) : graph_.pose(told.sight.pose) * told.sight.base_from_point;
     EnterPoint({at.x(), at.y(), told.point.sigma_m, told.point.seen_s}, walls.points);
   }
   return walls;

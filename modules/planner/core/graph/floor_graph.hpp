@@ -30,6 +30,8 @@ struct FloorGraphConfig {
   double gate = 3;            ///< Mahalanobis distance of two walls up to which they may be one
   double apart = 5;           ///< as far is every other wall that could be meant
   double alone_m = 0.2;       ///< three sigmas of the distance; known worse, other walls have to agree
+  bool points = true;         ///< corners and edges that are met again tie poses together as walls do
+  double point_m = 0.02;      ///< least sigma of a point in either direction
 
   void Describe(Archive& a);
 };
@@ -44,7 +46,8 @@ struct GraphAnchor {
 /// walls) is in its own frame, which drifts; the graph ties the walls to the poses from which they were
 /// heard, joins those that are one, and adjusts all. A wall that is met again is joined only when it lies
 /// where it was to be expected, no other could be meant, and, unless the place is known well, others that
-/// are met again agree.
+/// are met again agree. Points (corners and edges) are joined likewise: they alone tell where along a
+/// corridor the robot is.
 class FloorGraph {
  public:
   explicit FloorGraph(const FloorGraphConfig& config) : config_(config) {}
@@ -52,7 +55,7 @@ class FloorGraph {
   void Reset();
   /// The robot is here, by its own frame, at a time [s]. The first pose is the frame of the map.
   void NoteAt(const Pose2& robot_frame_from_base, double at_s);
-  /// A wall as the robot tells it, in its own frame; or a corner or an edge, which ties nothing together.
+  /// A wall as the robot tells it, in its own frame; or a corner or an edge.
   /// Nothing changes before the first pose.
   void Note(const SeenFeature& seen);
   /// Joins walls that are one, and adjusts everything. Returns whether anything came since the last time.
@@ -68,7 +71,7 @@ class FloorGraph {
   GraphAnchor AnchorOf(const Pose2& map_from_place) const;
   Pose2 PlaceOf(const GraphAnchor& anchor) const;
 
-  int loops() const { return loops_; }      ///< walls that were met again and joined
+  int loops() const { return loops_; }      ///< walls and points that were met again and joined
   int refused() const { return refused_; }  ///< and those that did not agree with the rest when they were
   const PoseGraph& graph() const { return graph_; }
   bool is_square() const { return graph_.axis_rad().has_value(); }
@@ -84,19 +87,20 @@ class FloorGraph {
     LearnedWall wall;
   };
   struct ToldPoint {
-    int key = 0;
-    Eigen::Vector2d in_key{0, 0};
+    GraphPointSight sight;
     LearnedPoint point;
+    Eigen::Vector2d towards{1, 0};  ///< from the base that found it to it, frame of the pose
   };
+  /// Two lines, or two points, that may be one.
   struct Candidate {
-    int kept = 0, gone = 0;
+    GraphNode kept, gone;
     Eigen::Vector2d error{0, 0};
     Eigen::Matrix<double, 2, 4> by = Eigen::Matrix<double, 2, 4>::Zero();
     double sigma_m = 0, distance = 0;
   };
 
   void NoteWall(const FeatureName& name, const LearnedWall& wall);
-  void NotePoint(const FeatureName& name, const LearnedPoint& point);
+  void NotePoint(const SeenFeature& seen, const LearnedPoint& point);
   int KeyAt(double at_s) const;
   void AddKey(const Pose2& at, double at_s);
   GraphSight SightOf(const Told& told) const;
@@ -109,8 +113,18 @@ class FloorGraph {
   static std::optional<double> Meet(const GraphLine& a, const std::vector<WallSpan>& own, const GraphLine& b,
                                     const std::vector<WallSpan>& others);
   std::optional<Candidate> CandidateAt(int kept, int gone, double at_m) const;
-  bool IsAmbiguous(const Candidate& candidate, const std::vector<Candidate>& all) const;
+  void AddPointCandidates(const std::map<int, std::vector<WallSpan>>& spans,
+                          std::vector<Candidate>& found) const;
+  std::optional<Candidate> PointCandidate(int kept, int gone) const;
+  static bool IsAmbiguous(const Candidate& candidate, const std::vector<Candidate>& all);
+  bool IsAmbiguousPoint(const Candidate& candidate) const;
+  bool AreOnOneSide(const Candidate& candidate, const std::map<int, std::vector<WallSpan>>& spans) const;
+  bool AreHeardTogether(int one, int other) const;
+  std::vector<Eigen::Vector2d> FoundTowards(int point) const;
+  bool IsKnownWell(const Candidate& candidate) const;
+  std::set<int> TiedPoints() const;
   bool Join(const std::vector<Candidate>& pairs);
+  void Rename(const GraphNode& kept, const GraphNode& gone);
   std::map<int, std::vector<WallSpan>> Spans() const;
 
   FloorGraphConfig config_;
@@ -120,7 +134,7 @@ class FloorGraph {
   double driven_m_ = 0, turned_rad_ = 0;  ///< since the newest key
   std::map<FeatureName, Told> told_;
   std::map<FeatureName, ToldPoint> points_;
-  std::set<std::pair<int, int>> apart_;  ///< lines that are not one
+  std::set<std::pair<GraphNode, GraphNode>> apart_;  ///< that are not one
   bool changed_ = false;
   int loops_ = 0, refused_ = 0;
 };

@@ -23,6 +23,11 @@ constexpr double kMostCost = 16;
 /// 99 % of what four numbers do by chance, squared sigmas.
 constexpr double kFour = 13.3;
 
+Vector2d UnevenOf(const GraphNode& node) {
+  return node.kind == GraphNode::Kind::kPoint ? Vector2d(kUneven_m, kUneven_m)
+                                              : Vector2d(kUneven_m, kUneven_rad);
+}
+
 }  // namespace
 
 /// Where two walls are nearest along the first; nullopt: nowhere.
@@ -47,15 +52,15 @@ std::optional<FloorGraph::Candidate> FloorGraph::CandidateAt(int kept, int gone,
   const double on_b_m = b.AlongTo(a.At(at_m));
   const Vector2d place = b.At(on_b_m);
   Candidate candidate;
-  candidate.kept = kept;
-  candidate.gone = gone;
+  candidate.kept = {GraphNode::Kind::kLine, kept};
+  candidate.gone = {GraphNode::Kind::kLine, gone};
   candidate.error << a.AcrossTo(place), WrapAngle(b.yaw_rad - a.yaw_rad);
   if (std::abs(candidate.error(0)) > kMostAcross_m) return std::nullopt;
-  const auto covariance = graph_.CovarianceOf({kept, gone});
+  const auto covariance = graph_.CovarianceOf({candidate.kept, candidate.gone});
   if (!covariance) return std::nullopt;
   candidate.by << -a.AlongTo(place), -1, on_b_m, 1, -1, 0, 1, 0;
   Eigen::Matrix2d spread = candidate.by * *covariance * candidate.by.transpose();
-  spread.diagonal() += Vector2d(kUneven_m, kUneven_rad).cwiseAbs2();
+  spread.diagonal() += UnevenOf(candidate.kept).cwiseAbs2();
   candidate.sigma_m = std::sqrt(spread(0, 0));
   candidate.distance = std::sqrt(candidate.error.dot(spread.ldlt().solve(candidate.error)));
   return candidate;
@@ -68,19 +73,20 @@ std::vector<FloorGraph::Candidate> FloorGraph::Candidates() const {
     for (auto k = std::next(i); k != spans.end(); ++k) {
       const GraphLine &a = graph_.line(i->first), &b = graph_.line(k->first);
       if (std::abs(WrapAngle(b.yaw_rad - a.yaw_rad)) > kSameFacing_rad) continue;
-      if (apart_.contains({i->first, k->first})) continue;
+      if (apart_.contains({{GraphNode::Kind::kLine, i->first}, {GraphNode::Kind::kLine, k->first}})) continue;
       const auto at_m = Meet(a, i->second, b, k->second);
       if (!at_m) continue;
       const auto candidate = CandidateAt(i->first, k->first, *at_m);
       if (candidate && candidate->distance <= config_.apart) found.push_back(*candidate);
     }
+  if (config_.points) AddPointCandidates(spans, found);
   std::stable_sort(found.begin(), found.end(),
                    [](const auto& a, const auto& b) { return a.distance < b.distance; });
   return found;
 }
 
 /// Whether another wall, elsewhere, could be meant as well.
-bool FloorGraph::IsAmbiguous(const Candidate& candidate, const std::vector<Candidate>& all) const {
+bool FloorGraph::IsAmbiguous(const Candidate& candidate, const std::vector<Candidate>& all) {
   return std::any_of(all.begin(), all.end(), [&](const Candidate& other) {
     const bool same_pair = other.kept == candidate.kept && other.gone == candidate.gone;
     const bool shares = other.kept == candidate.kept || other.gone == candidate.gone ||
@@ -101,7 +107,7 @@ bool FloorGraph::Agree(const Candidate& a, const Candidate& b) const {
   Eigen::Vector4d error;
   error << a.error, b.error;
   Eigen::Matrix4d spread = by * *covariance * by.transpose();
-  spread.diagonal() += Eigen::Vector4d(kUneven_m, kUneven_rad, kUneven_m, kUneven_rad).cwiseAbs2();
+  spread.diagonal() += (Eigen::Vector4d() << UnevenOf(a.kept), UnevenOf(b.kept)).finished().cwiseAbs2();
   return error.dot(spread.ldlt().solve(error)) < kFour;
 }
 
@@ -110,8 +116,10 @@ bool FloorGraph::JoinOnce() {
   const auto all = Candidates();
   std::vector<Candidate> doubtful;
   for (const Candidate& candidate : all) {
-    if (candidate.distance > config_.gate || IsAmbiguous(candidate, all)) continue;
-    if (3 * candidate.sigma_m > config_.alone_m) {
+    const bool is_point = candidate.kept.kind == GraphNode::Kind::kPoint;
+    if (candidate.distance > config_.gate) continue;
+    if (is_point ? IsAmbiguousPoint(candidate) : IsAmbiguous(candidate, all)) continue;
+    if (!IsKnownWell(candidate)) {
       doubtful.push_back(candidate);
     } else if (Join({candidate})) {
       return true;
@@ -130,11 +138,26 @@ bool FloorGraph::JoinTogether(const std::vector<Candidate>& found) {
   return false;
 }
 
+/// What was told of one node is of another from now on.
+void FloorGraph::Rename(const GraphNode& kept, const GraphNode& gone) {
+  if (kept.kind == GraphNode::Kind::kPoint) {
+    for (auto& [name, told] : points_)
+      if (told.sight.point == gone.index) told.sight.point = kept.index;
+    return;
+  }
+  for (auto& [name, told] : told_)
+    if (told.line == gone.index) told.line = kept.index;
+}
+
 /// Tries it: what costs too much is undone, and not tried again.
 bool FloorGraph::Join(const std::vector<Candidate>& pairs) {
   const PoseGraph before = graph_;
   const double cost = graph_.CostOf();
-  for (const Candidate& pair : pairs) graph_.Join(pair.kept, pair.gone);
+  for (const Candidate& pair : pairs)
+    if (pair.kept.kind == GraphNode::Kind::kLine)
+      graph_.Join(pair.kept.index, pair.gone.index);
+    else
+      graph_.JoinPoints(pair.kept.index, pair.gone.index);
   graph_.FollowAll();
   if (graph_.Adjust() > cost + kMostCost * static_cast<double>(pairs.size())) {
     graph_ = before;
@@ -142,9 +165,7 @@ bool FloorGraph::Join(const std::vector<Candidate>& pairs) {
     refused_ += static_cast<int>(pairs.size());
     return false;
   }
-  for (const Candidate& pair : pairs)
-    for (auto& [name, told] : told_)
-      if (told.line == pair.gone) told.line = pair.kept;
+  for (const Candidate& pair : pairs) Rename(pair.kept, pair.gone);
   loops_ += static_cast<int>(pairs.size());
   return true;
 }

@@ -16,6 +16,8 @@ struct SeenFeature {
   int store = 0, id = 0;
   /// A wall or a point, whose own id and sightings mean nothing; nothing: the robot saw through it.
   std::variant<std::monostate, LearnedWall, LearnedPoint> what{};
+  double own_sigma_m = 0;  ///< of a point against the base that heard it, in any direction at most
+  double towards_rad = 0;  ///< direction from the base to a point when it was found
 
   FeatureName name() const { return {store, id}; }
   bool gone() const { return std::holds_alternative<std::monostate>(what); }

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "robot/core/sonar/wall_segment.hpp"
+#include "robot/core/sonar/placed_echo.hpp"
 
 namespace priamos::robot {
 

@@ -32,8 +32,8 @@ void PointFinderConfig::Describe(Archive& a) {
   a.Section("fit", fit, "which echoes are those of one place");
 }
 
-PointFinder::PointFinder(const PointFinderConfig& config)
-    : config_(config), waiting_({config.window_m, config.window_s, kMostOfNone}) {}
+PointFinder::PointFinder(const PointFinderConfig& config, const OdometryNoise& odometry)
+    : config_(config), odometry_(odometry), waiting_({config.window_m, config.window_s, kMostOfNone}) {}
 
 std::vector<const FoundPoint*> PointFinder::Add(std::span<const PlacedEcho> unexplained, Time now) {
   std::vector<const FoundPoint*> changed;
@@ -99,7 +99,8 @@ bool PointFinder::Grow(const PlacedEcho& echo, Time now, std::vector<const Found
   point->found.heard = now;
   point->found.travel_m = echo.travel_m;
   // The newest echoes alone may come from one direction: what was known better before stays.
-  if (const auto fit = FitPoint(point->echoes, point->found.fit.at, config_.fit)) point->found.fit = *fit;
+  if (const auto fit = FitPoint(point->echoes, point->found.fit.at, config_.fit, odometry_))
+    point->found.fit = *fit;
   if (std::find(changed.begin(), changed.end(), &point->found) == changed.end())
     changed.push_back(&point->found);
   return true;
@@ -114,7 +115,7 @@ const FoundPoint* PointFinder::Begin(std::span<const PlacedEcho> newest, Time no
   if (voted.votes < config_.votes) return nullptr;
   const Vector2d place = Refined(voted.at);
   std::vector<PlacedEcho> echoes = Supporters(place, config_.gate_m);
-  const auto fit = FitPoint(echoes, place, config_.fit);
+  const auto fit = FitPoint(echoes, place, config_.fit, odometry_);
   if (!fit) return nullptr;
   waiting_.Release(
       [&](const PlacedEcho& echo) { return MayComeFrom(echo, fit->at, config_.gate_m, config_.fit); });
@@ -131,7 +132,7 @@ Vector2d PointFinder::Refined(Vector2d place) const {
   rough.most_rms = std::numeric_limits<double>::infinity();
   rough.surplus = -std::numeric_limits<double>::infinity();
   for (double gate_m = kVoted_m; gate_m > config_.gate_m; gate_m /= 2)
-    if (const auto fit = FitPoint(Supporters(place, gate_m), place, rough)) place = fit->at;
+    if (const auto fit = FitPoint(Supporters(place, gate_m), place, rough, odometry_)) place = fit->at;
   return place;
 }
 

@@ -18,7 +18,7 @@ struct PointFinderConfig {
   double window_s = 30;    ///< ... or after this time
   int votes = 14;          ///< echoes through one place that are looked at closely
   double gate_m = 0.03;    ///< an echo so far off is one of a place that is known
-  double keep_m = 6;       ///< a place takes no more after the base has driven so far without hearing it
+  double keep_m = 3;       ///< a place takes no more after the base has driven so far without hearing it
   double through_m = 1.5;  ///< from so near a place is heard by a beam ...
   double through_deg = 5;  ///< ... that points so near to it
   int through = 12;        ///< directions, 2 degrees apart, from which beams saw through it: it has gone
@@ -41,7 +41,7 @@ struct FoundPoint {
 /// better by every echo.
 class PointFinder {
  public:
-  explicit PointFinder(const PointFinderConfig& config);
+  PointFinder(const PointFinderConfig& config, const OdometryNoise& odometry);
 
   /// Takes the echoes of a cycle that no wall explains. Returns the places that began or changed.
   std::vector<const FoundPoint*> Add(std::span<const PlacedEcho> unexplained, Time now);
@@ -65,6 +65,7 @@ class PointFinder {
   std::vector<PlacedEcho> Supporters(const Eigen::Vector2d& place, double gate_m) const;
 
   PointFinderConfig config_;
+  OdometryNoise odometry_;
   WaitingEchoes<ArcVotes> waiting_;  ///< for a place that explains them
   std::deque<Point> points_;
   int last_number_ = 0;

@@ -80,6 +80,20 @@ double Surplus(const std::vector<PlacedEcho>& echoes, const Vector2d& place, dou
   return (of_line - of_point) / variance;
 }
 
+/// Of a place whose residuals have this variance, in sigmas of a range.
+Eigen::Matrix2d CovarianceOf(const std::vector<PlacedEcho>& echoes, const Vector2d& place, double variance,
+                             const PointFitConfig& config, const OdometryNoise& odometry) {
+  const Eigen::Matrix2d cofactors = PointStep(echoes, place, config.noise).Cofactors();
+  std::vector<EchoGain> gains;
+  gains.reserve(echoes.size());
+  for (const PlacedEcho& echo : echoes) {
+    const Vector2d towards = (place - echo.odom_from_sonar.translation()).normalized();
+    gains.push_back({cofactors * towards / std::pow(config.noise.SigmaOf(echo.range_m), 2), towards});
+  }
+  return variance * cofactors + SharedCovariance(echoes, gains, config.shared, odometry) +
+         config.pulled_m * config.pulled_m * Eigen::Matrix2d::Identity();
+}
+
 /// The angle at a place within which it was heard [rad].
 double SpreadOf(const std::vector<PlacedEcho>& echoes, const Vector2d& place) {
   const auto direction = [&](const PlacedEcho& echo) {
@@ -104,6 +118,10 @@ void PointFitConfig::Describe(Archive& a) {
   a.Number("most_rms", most_rms, {"-", 1, 10, "largest RMS of the residuals, in sigmas of a range"});
   a.Number("surplus", surplus, {"-", 0, 1000, "a wall explains them so much worse, in variances"});
   a.Number("range_sigma_m", noise.sigma_m, {"m", 0.001, 0.1, "noise and rounding of a range, sigma"});
+  a.Number("pulled_m", pulled_m, {"m", 0, 0.2, "sigma of what pulls all its echoes alike"});
+  a.Number("sound_speed", shared.sound_speed, {"-", 0, 0.1, "sigma of the scale of all ranges"});
+  a.Number("yaw_rad_per_m", shared.yaw_rad_per_m,
+           {"rad/m", 0, 0.2, "sigma of the odometry's turn per metre"});
   a.Number("range_sigma_per_m", noise.sigma_per_m, {"-", 0, 0.1, "growth of the noise with the range"});
 }
 
@@ -120,7 +138,7 @@ double PointOverLine(const std::vector<PlacedEcho>& echoes, const Vector2d& near
 }
 
 std::optional<PointFit> FitPoint(const std::vector<PlacedEcho>& echoes, const Vector2d& near,
-                                 const PointFitConfig& config) {
+                                 const PointFitConfig& config, const OdometryNoise& odometry) {
   if (static_cast<int>(echoes.size()) < config.least_echoes) return std::nullopt;
   Vector2d place = near;
   const double squares = FindPlace(echoes, place, config.noise);
@@ -130,7 +148,7 @@ std::optional<PointFit> FitPoint(const std::vector<PlacedEcho>& echoes, const Ve
     return std::nullopt;
   if (SpreadOf(echoes, place) < Radians(config.spread_deg)) return std::nullopt;
   if (!(Surplus(echoes, place, squares, config.noise) > config.surplus)) return std::nullopt;
-  return PointFit{place, std::max(1.0, variance) * PointStep(echoes, place, config.noise).Cofactors()};
+  return PointFit{place, CovarianceOf(echoes, place, std::max(1.0, variance), config, odometry)};
 }
 
 }  // namespace priamos::robot

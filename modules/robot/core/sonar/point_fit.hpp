@@ -4,7 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "robot/core/sonar/wall_segment.hpp"
+#include "robot/core/sonar/echo_errors.hpp"
+#include "robot/core/sonar/placed_echo.hpp"
 
 namespace priamos::robot {
 
@@ -17,12 +18,16 @@ struct RangeNoise {
 
 /// When echoes are those of one place.
 struct PointFitConfig {
-  int least_echoes = 10;
+  int least_echoes = 20;
   double spread_deg = 30;    ///< the place was heard from directions that differ so much at least
-  double off_axis_deg = 15;  ///< so far off the axis of a sensor it is heard
-  double most_rms = 2;       ///< largest RMS of the residuals, in sigmas of a range
-  double surplus = 16;       ///< a wall explains them so much worse, see PointOverLine()
+  double off_axis_deg = 12;  ///< so far off the axis of a sensor it is heard
+  double most_rms = 1.4;     ///< largest RMS of the residuals, in sigmas of a range
+  double surplus = 60;       ///< a wall explains them so much worse, see PointOverLine()
   RangeNoise noise{};
+  SharedErrors shared{};
+  /// What pulls all its echoes alike, sigma in any direction: those of the wall beside an edge, or of the
+  /// other edge of a thin wall.
+  double pulled_m = 0.02;
 
   void Describe(Archive& a);
 };
@@ -45,8 +50,9 @@ double PointOverLine(const std::vector<PlacedEcho>& echoes, const Eigen::Vector2
 
 /// The place that the echoes have their ranges to, by least squares from `near` on; nullopt when it is none:
 /// a wall is heard from one direction only, and the ranges to a round thing do not meet. The covariance
-/// counts the noise of ranges as large as the residuals show it.
+/// counts the noise of ranges as large as the residuals show it, and the errors that the echoes share: what
+/// was heard from one side only is known badly across that.
 std::optional<PointFit> FitPoint(const std::vector<PlacedEcho>& echoes, const Eigen::Vector2d& near,
-                                 const PointFitConfig& config);
+                                 const PointFitConfig& config, const OdometryNoise& odometry);
 
 }  // namespace priamos::robot

@@ -26,6 +26,8 @@ void SegmentFinderConfig::Describe(Archive& a) {
   a.Number("least_m", least_m, {"m", 0.2, 3, "least length of a new segment"});
   a.Number("gap_m", gap_m, {"m", 0.05, 2, "echoes farther apart are not of one wall"});
   a.Number("keep_m", keep_m, {"m", 0.5, 50, "a segment grows no more when it was not heard for so far"});
+  a.Integer("groups", groups, {"-", 1, kSonars, "groups of sensors that fire one after the other"});
+  a.Number("cycle_s", cycle_s, {"s", 0.02, 1, "time for all groups to fire once"});
   a.Section("segment", segment, "which echoes are those of one wall");
 }
 
@@ -38,12 +40,12 @@ SegmentFinder::SegmentFinder(const SegmentFinderConfig& config, const OdometryNo
 
 std::vector<const FoundSegment*> SegmentFinder::Add(const SonarCycle& cycle, const Pose2& odom_from_base,
                                                     const OfPoint& of_point) {
-  if (std::exchange(moved_before_, true))
-    travel_m_ += (odom_from_base.translation() - last_base_.translation()).norm();
-  last_base_ = odom_from_base;
+  if (last_cycle_) travel_m_ += (odom_from_base.translation() - last_base_.translation()).norm();
   Forget(cycle.time);
   std::vector<const FoundSegment*> changed;
   heard_ = NewEchoes(cycle, odom_from_base);
+  last_base_ = odom_from_base;
+  last_cycle_ = cycle.time;
   unexplained_ = Explain(heard_, cycle.time, of_point, changed);
   for (const PlacedEcho& echo : unexplained_) waiting_.Add(echo, cycle.time);
   for (const PlacedEcho& echo : unexplained_) {
@@ -55,6 +57,19 @@ std::vector<const FoundSegment*> SegmentFinder::Add(const SonarCycle& cycle, con
   return changed;
 }
 
+/// The cycle is stamped when its last group fires. A base that drives is centimetres behind when the first
+/// one does, and one that turns has its sensors elsewhere.
+Pose2 SegmentFinder::BaseWhenFired(std::size_t sensor, const SonarCycle& cycle,
+                                   const Pose2& odom_from_base) const {
+  const int groups_later = config_.groups - 1 - static_cast<int>(sensor) % config_.groups;
+  const double earlier_s = config_.cycle_s * groups_later / config_.groups;
+  const double since_s = last_cycle_ ? Seconds(cycle.time - *last_cycle_) : 0;
+  if (!(since_s >= earlier_s) || groups_later == 0) return odom_from_base;
+  const double share = earlier_s / since_s;
+  const Pose2 back = odom_from_base.Inverse() * last_base_;
+  return odom_from_base * Pose2{share * back.x, share * back.y, share * back.yaw};
+}
+
 /// A base that stands, or a sensor that moves along a wall no farther than its noise, does not count the same
 /// echo many times.
 std::vector<PlacedEcho> SegmentFinder::NewEchoes(const SonarCycle& cycle, const Pose2& odom_from_base) {
@@ -63,7 +78,7 @@ std::vector<PlacedEcho> SegmentFinder::NewEchoes(const SonarCycle& cycle, const 
     const double range_m = cycle.range_m[i];
     // Written so that NaN is refused. The least range stands for all that is nearer.
     if (!(range_m > kSonarMin_m && range_m <= kSonarMax_m)) continue;
-    const Pose2 at = odom_from_base * base_from_sonar_[i];
+    const Pose2 at = BaseWhenFired(i, cycle, odom_from_base) * base_from_sonar_[i];
     const Pose2& before = taken_at_[i];
     const bool moved = (at.translation() - before.translation()).norm() >= config_.moved_m ||
                        std::abs(WrapAngle(at.yaw - before.yaw)) >= Radians(config_.turned_deg);

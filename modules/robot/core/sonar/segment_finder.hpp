@@ -3,6 +3,7 @@
 #include <array>
 #include <deque>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "common/archive.hpp"
@@ -26,7 +27,9 @@ struct SegmentFinderConfig {
   double surplus = 9;       ///< a point explains its echoes so much worse, see PointOverLine()
   double gap_m = 0.35;      ///< echoes farther apart are not of one wall
   double keep_m = 6;        ///< a segment grows no more after the base has driven so far without hearing it
-  WallSegmentConfig segment;
+  int groups = 3;           ///< sensors i, i + groups, ... fire together, one group after the other ...
+  double cycle_s = 0.1;     ///< ... within a cycle
+  WallSegmentConfig segment{};
 
   void Describe(Archive& a);
 };
@@ -62,6 +65,7 @@ class SegmentFinder {
 
  private:
   std::vector<PlacedEcho> NewEchoes(const SonarCycle& cycle, const Pose2& odom_from_base);
+  Pose2 BaseWhenFired(std::size_t sensor, const SonarCycle& cycle, const Pose2& odom_from_base) const;
   std::vector<PlacedEcho> Explain(std::vector<PlacedEcho> echoes, Time time, const OfPoint& of_point,
                                   std::vector<const FoundSegment*>& changed);
   void Forget(Time now);
@@ -75,7 +79,7 @@ class SegmentFinder {
   std::array<Pose2, kSonars> taken_at_;  ///< where each sensor was when it told something new
   std::array<bool, kSonars> taken_{};
   Pose2 last_base_;
-  bool moved_before_ = false;
+  std::optional<Time> last_cycle_;
   double travel_m_ = 0;
   WaitingEchoes<LineVotes> waiting_;  ///< for a wall that explains them
   std::vector<PlacedEcho> heard_, unexplained_;

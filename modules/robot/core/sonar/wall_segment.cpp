@@ -5,14 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "robot/core/sonar/echo_errors.hpp"
 #include "robot/core/sonar/wall_end.hpp"
 
 namespace priamos::robot {
 namespace {
-
-/// Wheels slip for some decimetres in the same sense: over a few metres a walk of independent steps, which
-/// the noise of the odometry describes, would be longer.
-constexpr double kWalked = 0.8;
 
 Eigen::Matrix2d Outer(const Eigen::Vector2d& v) {
   return v * v.transpose();
@@ -57,34 +54,17 @@ Design Improve(const std::vector<PlacedEcho>& echoes, SegmentLine& line) {
   return design;
 }
 
-/// Covariance of a least squares estimate whose ranges do not err independently. An error of the odometry's
-/// heading between two echoes turns the places of all earlier ones about where the base was then.
+/// Covariance of a least squares estimate whose ranges do not err independently.
 Eigen::Matrix2d CovarianceOf(const std::vector<PlacedEcho>& echoes, const Design& design,
                              const SegmentLine& line, const WallSegmentConfig& config,
                              const OdometryNoise& noise) {
   const double sigma_m = config.range.SigmaOf(design.range_m.mean());
-  Eigen::Matrix2d covariance = sigma_m * sigma_m * design.cofactors;
-  Eigen::Vector2d weight(0, 0), weight_along(0, 0), by_sound(0, 0), by_turn(0, 0);
-  for (std::size_t k = 0; k < echoes.size(); ++k) {
-    const auto row = static_cast<Eigen::Index>(k);
-    const Eigen::Vector2d gain = design.cofactors * Eigen::Vector2d(-design.along_m(row), 1);
-    weight += gain;
-    weight_along += gain * design.along_m(row);
-    by_sound += gain * design.range_m(row);
-    if (k + 1 == echoes.size()) break;
-    const Pose2 &base = echoes[k].odom_from_base, &next = echoes[k + 1].odom_from_base;
-    const double driven_m = std::max(0.0, echoes[k + 1].travel_m - echoes[k].travel_m);
-    const double walked_m = kWalked * driven_m;
-    const double turned_rad = std::abs(WrapAngle(next.yaw - base.yaw));
-    const Eigen::Vector2d by_heading =
-        weight_along - weight * line.along().dot(base.translation() - line.anchor);
-    covariance += Outer(by_heading) * (std::pow(noise.yaw_rad_per_sqrt_m, 2) * walked_m +
-                                       std::pow(noise.yaw_rad_per_sqrt_rad, 2) * turned_rad);
-    covariance += Outer(weight) * std::pow(noise.drift_m_per_sqrt_m, 2) * walked_m;
-    by_turn += by_heading * driven_m;
-  }
-  return covariance + Outer(by_sound) * std::pow(config.sound_speed, 2) +
-         Outer(by_turn) * std::pow(config.yaw_rad_per_m, 2);
+  std::vector<EchoGain> gains;
+  gains.reserve(echoes.size());
+  for (Eigen::Index k = 0; k < design.along_m.size(); ++k)
+    gains.push_back({design.cofactors * Eigen::Vector2d(-design.along_m(k), 1), line.normal()});
+  return sigma_m * sigma_m * design.cofactors +
+         SharedCovariance(echoes, gains, {config.sound_speed, config.yaw_rad_per_m}, noise);
 }
 
 }  // namespace

@@ -77,14 +77,14 @@ TEST(PoseGraph, AWallThatStandsAskewDoesNot) {
 
 TEST(PoseGraph, TellsHowWellALineIsKnown) {
   PoseGraph graph = SeenTwice(0);
-  EXPECT_FALSE(graph.CovarianceOf({0}));
+  EXPECT_FALSE(graph.CovarianceOf({GraphNode{.index = 0}}));
   graph.Adjust();
-  const auto covariance = graph.CovarianceOf({0});
+  const auto covariance = graph.CovarianceOf({GraphNode{.index = 0}});
   ASSERT_TRUE(covariance);
   EXPECT_LT(std::sqrt((*covariance)(1, 1)), 0.006);
   EXPECT_GT(std::sqrt((*covariance)(1, 1)), 0.002);
   graph.AddLine({});
-  EXPECT_FALSE(graph.CovarianceOf({1}));
+  EXPECT_FALSE(graph.CovarianceOf({GraphNode{.index = 1}}));
 }
 
 TEST(PoseGraph, JoinedLinesAreOne) {
@@ -95,6 +95,37 @@ TEST(PoseGraph, JoinedLinesAreOne) {
   for (const GraphSight& sight : graph.sights()) EXPECT_EQ(sight.line, 0);
   graph.Adjust();
   EXPECT_TRUE(std::isfinite(graph.line(1).yaw_rad));
+}
+
+/// A point that is heard from two poses mends the way between them in both directions.
+TEST(PoseGraph, APointHeardTwiceTiesTwoPoses) {
+  PoseGraph graph;
+  graph.AddPose({0, 0, 0});
+  graph.AddPose({2.2, 0.1, 0});
+  graph.Add(GraphMotion{0, 1, {2.2, 0.1, 0}, {0.2, 0.2, 0.001}});
+  graph.AddPoint({1, 1});
+  graph.Add(GraphPointSight{0, 0, {1, 1}, 0.01});
+  graph.Add(GraphPointSight{1, 0, {-1, 1}, 0.01});
+  graph.FollowAll();
+  graph.Adjust();
+  EXPECT_NEAR(graph.pose(1).x, 2, 0.02);
+  EXPECT_NEAR(graph.pose(1).y, 0, 0.02);
+  const auto covariance = graph.CovarianceOf({{GraphNode::Kind::kPoint, 0}});
+  ASSERT_TRUE(covariance);
+  EXPECT_NEAR(std::sqrt((*covariance)(0, 0)), 0.01, 0.005);
+}
+
+TEST(PoseGraph, JoinedPointsAreOne) {
+  PoseGraph graph;
+  graph.AddPose({0, 0, 0});
+  graph.AddPoint({1, 1});
+  graph.AddPoint({1.1, 1});
+  graph.Add(GraphPointSight{0, 0, {1, 1}, 0.01});
+  graph.Add(GraphPointSight{0, 1, {1.02, 1}, 0.01});
+  graph.JoinPoints(0, 1);
+  graph.Adjust();
+  EXPECT_NEAR(graph.point(0).x(), 1.01, 0.005);
+  EXPECT_NEAR(graph.DistanceOf(GraphPointSight{0, 0, {1, 1}, 0.01}), 1, 0.5);
 }
 
 }  // namespace
