@@ -3,6 +3,7 @@
 #include "common/archive.hpp"
 #include "robot/core/base/twist_slew.hpp"
 #include "robot/core/motion/corridor_axis.hpp"
+#include "robot/core/motion/meeting_stop.hpp"
 #include "robot/core/motion/path_follower.hpp"
 #include "robot/core/motion/yield.hpp"
 #include "robot/core/safety/authority.hpp"
@@ -27,6 +28,7 @@ struct DriveConfig {
   EchoMemoryConfig echoes;
   FloorMemoryConfig floor;
   MoverConfig movers;
+  MeetingStopConfig meeting;
   CollisionStopConfig collision;
   TouchConfig touch;
   double operator_margin_m =

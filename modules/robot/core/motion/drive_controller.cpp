@@ -59,6 +59,7 @@ DriveController::DriveController(const DriveConfig& config, const MecanumGeometr
       echoes_(config.echoes, config.footprint),
       floor_(config.floor),
       movers_(config.movers, config.footprint),
+      meeting_(config.meeting),
       collision_(config.collision, config.footprint),
       rough_collision_(WithMargin(config.collision, config.operator_margin_m), config.footprint),
       touch_(config.touch, config.footprint, geometry),
@@ -257,8 +258,15 @@ Twist2 DriveController::WantedByPath(const DriveSituation& situation, const Obst
   state_.remaining_m = wanted.remaining_m;
   state_.cross_track_m = wanted.cross_track_m;
   if (wanted.arrived) state_.mode = DriveMode::kArrived;
+  if (HeedsMovers() && StandsForMover(situation, now)) return {};
   if (!InCorridor() || wanted.arrived) return wanted.twist;
   return corridor_.MakeRoom(movers_, wanted, situation.odom_from_base, now).value_or(wanted.twist);
+}
+
+bool DriveController::StandsForMover(const DriveSituation& situation, Time now) {
+  const Twist2& driven = situation.estimate->twist;
+  return meeting_.Stands(
+      movers_.IsAboutToMeet(situation.odom_from_base, {driven.vx, driven.vy}, meeting_.within_s()), now);
 }
 
 /// An operator goes to and fro beside things, and in a doorway jambs come near: one of them might be taken

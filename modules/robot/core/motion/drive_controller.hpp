@@ -129,6 +129,7 @@ class DriveController {
   void BeginPath(const DriveSituation& situation);
   bool InCorridor() const;
   bool HeedsMovers() const;
+  bool StandsForMover(const DriveSituation& situation, Time now);
   void KeepCentred(const DriveSituation& situation, Time now);
   void StandIfLetGo(Time now);
   Twist2 WantedByOperator(Time now) const;
@@ -152,6 +153,7 @@ class DriveController {
   EchoMemory echoes_;
   FloorMemory floor_;
   MoverWatch movers_;
+  MeetingStop meeting_;
   CollisionStop collision_, rough_collision_;
   TouchWatch touch_;
   Authority authority_;

@@ -19,7 +19,8 @@ constexpr double kApart_m = 0.1;  ///< of the places that are kept free
 }  // namespace
 
 void MoverConfig::Describe(Archive& a) {
-  a.Number("ahead_deg", ahead_deg, {"deg", 5, 180, "sensors farther off the heading are not asked"});
+  a.Number("ahead_deg", ahead_deg,
+           {"deg", 5, 180, "of who comes by a sensor farther off the heading nothing is kept free"});
   a.Number("window_s", window_s, {"s", 0.3, 3, "echoes of so long tell whether something comes"});
   a.Number("least_m_s", least_m_s, {"m/s", 0.1, 2, "what comes more slowly counts as standing"});
   a.Number("residual_m", residual_m, {"m", 0.02, 1, "error of the line through the echoes, at most"});
@@ -47,8 +48,10 @@ void MoverWatch::Add(const SonarCycle& cycle, const Pose2& odom_from_base) {
     if (turns) heard_[i].clear();
     if (!Keep(heard_[i], cycle.time, odom_from_sonar, cycle.range_m[i])) continue;
     echoes.push_back(odom_from_sonar * Eigen::Vector2d(cycle.range_m[i], 0));
-    if (std::abs(base_from_sonar.yaw) > Radians(config_.ahead_deg)) continue;
-    if (const auto one = ComingIn(heard_[i], odom_from_sonar)) coming.push_back(*one);
+    auto one = ComingIn(heard_[i], odom_from_sonar);
+    if (!one) continue;
+    one->beside = std::abs(base_from_sonar.yaw) > Radians(config_.ahead_deg);
+    coming.push_back(*one);
   }
   Follow(echoes, cycle.time);
   for (const Coming& one : coming) Found(one, cycle.time);
@@ -132,17 +135,32 @@ void MoverWatch::Follow(const std::vector<Eigen::Vector2d>& echoes, Time now) {
 }
 
 void MoverWatch::Found(const Coming& coming, Time now) {
-  const auto& [at, velocity] = coming;
+  const auto& [at, velocity, beside] = coming;
   const auto known = std::find_if(movers_.begin(), movers_.end(), [&](const Mover& mover) {
     return (mover.at - coming.at).norm() < 2 * config_.gate_m;
   });
   if (known == movers_.end()) {
-    movers_.push_back({at, velocity, now, at, now});
+    movers_.push_back({at, velocity, now, at, now, beside});
     return;
   }
   // Of two sensors that hear it the nearer place counts, and the faster motion.
   known->seen = now;
+  known->beside = known->beside && beside;
   if (velocity.norm() > known->velocity.norm()) known->velocity = velocity;
+}
+
+bool MoverWatch::IsAboutToMeet(const Pose2& odom_from_base, const Eigen::Vector2d& velocity,
+                               double within_s) const {
+  constexpr int kLooked = 15;
+  const Pose2 base_from_odom = odom_from_base.Inverse();
+  return std::any_of(movers_.begin(), movers_.end(), [&](const Mover& mover) {
+    if (mover.velocity.norm() < config_.least_m_s) return false;
+    const Eigen::Vector2d at = base_from_odom * mover.at,
+                          relative = base_from_odom.rotation() * mover.velocity - velocity;
+    for (int i = 0; i <= kLooked; ++i)
+      if (footprint_.Distance(at + within_s * i / kLooked * relative) < config_.body_m) return true;
+    return false;
+  });
 }
 
 const Mover* MoverWatch::NearestAhead(const Pose2& odom_from_base) const {
@@ -152,7 +170,7 @@ const Mover* MoverWatch::NearestAhead(const Pose2& odom_from_base) const {
   for (const Mover& mover : movers_) {
     const Eigen::Vector2d at = base_from_odom * mover.at;
     const double distance_m = footprint_.Distance(at);
-    if (at.x() < 0 || (nearest && distance_m >= least_m)) continue;
+    if (mover.beside || at.x() < 0 || (nearest && distance_m >= least_m)) continue;
     nearest = &mover;
     least_m = distance_m;
   }
@@ -161,7 +179,7 @@ const Mover* MoverWatch::NearestAhead(const Pose2& odom_from_base) const {
 
 bool MoverWatch::IsOfMover(const Eigen::Vector2d& odom) const {
   return std::any_of(movers_.begin(), movers_.end(), [&](const Mover& mover) {
-    return (mover.at - odom).norm() < config_.gate_m + config_.body_m / 2;
+    return !mover.beside && (mover.at - odom).norm() < config_.gate_m + config_.body_m / 2;
   });
 }
 
@@ -169,6 +187,7 @@ std::vector<Eigen::Vector2d> MoverWatch::Points(const Pose2& odom_from_base) con
   const Pose2 base_from_odom = odom_from_base.Inverse();
   std::vector<Eigen::Vector2d> points;
   for (const Mover& mover : movers_) {
+    if (mover.beside) continue;
     const Eigen::Vector2d at = base_from_odom * mover.at;
     Eigen::Vector2d along = base_from_odom.rotation() * mover.velocity;
     const double speed = along.norm();

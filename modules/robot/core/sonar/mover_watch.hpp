@@ -17,7 +17,7 @@ namespace priamos::robot {
 
 /// When an echo is that of something that comes towards the base, and what is kept free of it.
 struct MoverConfig {
-  double ahead_deg = 50;     ///< sensors whose axis is farther off the heading are not asked
+  double ahead_deg = 50;     ///< of who comes by a sensor farther off the heading nothing is kept free
   double window_s = 0.5;     ///< echoes of so long decide
   double least_m_s = 0.35;   ///< slower things count as standing
   double residual_m = 0.12;  ///< a larger error of the line through the echoes is no motion
@@ -30,13 +30,16 @@ struct MoverConfig {
   void Describe(Archive& a);
 };
 
-/// Something that has come towards the base, frame of the odometry.
+/// Something that has come towards the base, frame of the odometry. Beside a base that drives things that
+/// stand are sometimes taken for movers: so one that was heard only beside it keeps nothing free, and hides
+/// nothing.
 struct Mover {
   Eigen::Vector2d at{0, 0};        ///< where it was heard last
   Eigen::Vector2d velocity{0, 0};  ///< over the floor, along the beam that hears it [m/s]
   Time seen{};
   Eigen::Vector2d stood_at{0, 0};  ///< where it has been since `stood`
   Time stood{};
+  bool beside = false;  ///< it was never heard ahead
 };
 
 /// Finds what comes towards the base, a person above all, by successive echoes. A sonar tells the distance:
@@ -51,6 +54,9 @@ class MoverWatch {
   /// Takes a cycle of the sonars. `odom_from_base`: pose when the cycle ended.
   void Add(const SonarCycle& cycle, const Pose2& odom_from_base);
   const std::vector<Mover>& movers() const { return movers_; }
+  /// Whether a mover, wherever it comes from, will be so near to the footprint in `within_s` that body and
+  /// base touch. `velocity`: of the base, in its frame [m/s].
+  bool IsAboutToMeet(const Pose2& odom_from_base, const Eigen::Vector2d& velocity, double within_s) const;
   /// The mover nearest to the base before it, at `odom_from_base`; nullptr when there is none.
   const Mover* NearestAhead(const Pose2& odom_from_base) const;
   /// Whether an echo at `odom` is that of a mover.
@@ -71,6 +77,7 @@ class MoverWatch {
   /// What comes, by one sensor.
   struct Coming {
     Eigen::Vector2d at, velocity;
+    bool beside = false;
   };
   bool Keep(std::deque<Sample>& samples, Time now, const Pose2& odom_from_sonar, double range_m) const;
   std::optional<Coming> ComingIn(const std::deque<Sample>& samples, const Pose2& odom_from_sonar) const;

@@ -57,7 +57,7 @@ TEST(MoverRun, WhoHasComeAndGoneBlocksNothing) {
     RobotRig rig(seed, {}, {}, {}, Hall());
     rig.SetPath({.id = 1, .speed_m_s = 0.3, .points = {{8, 0, 0}}, .leeway = {{0.3, 0.3}}});
     FastestBeside(rig, 6, -9, 0.8, 10);
-    FastestBeside(rig, 3, 30, 1.2, 30);
+    FastestBeside(rig, 3, 30, 1.2, 33);
     EXPECT_EQ(rig.state().mode, DriveMode::kArrived) << seed;
   }
 }

@@ -58,6 +58,31 @@ TEST_F(MoverWatchTest, WhoeverComesIsKnownHalfASecondAfterTheFirstEcho) {
     }
 }
 
+TEST_F(MoverWatchTest, WhoComesFromTheSideIsAboutToMeetTheBaseButKeepsNothingFree) {
+  constexpr std::size_t kLeft = 6;  // 90 degrees
+  for (int i = 0; i < 12; ++i) {
+    SonarCycle cycle{now_ += milliseconds(100), {}};
+    cycle.range_m.fill(kNone_m);
+    cycle.range_m[kLeft] = 2.2 - 0.08 * i;
+    dut_.Add(cycle, {});
+  }
+  ASSERT_THAT(dut_.movers(), SizeIs(1));
+  EXPECT_TRUE(dut_.movers()[0].beside);
+  EXPECT_TRUE(dut_.IsAboutToMeet({}, {0, 0}, 1.5)) << "1 m away at 0.8 m/s";
+  EXPECT_FALSE(dut_.IsAboutToMeet({}, {0, 0}, 0.5));
+  EXPECT_FALSE(dut_.IsAboutToMeet({}, {1.5, 0}, 1.5)) << "the base is gone by then";
+  EXPECT_THAT(dut_.Points({}), IsEmpty());
+  EXPECT_FALSE(dut_.IsOfMover(dut_.movers()[0].at));
+  EXPECT_EQ(dut_.NearestAhead({}), nullptr);
+}
+
+TEST_F(MoverWatchTest, WhoHasStoppedIsNotAboutToMeetTheBase) {
+  Come(3, 0.8, 0, 12);
+  EXPECT_TRUE(dut_.IsAboutToMeet({}, {0, 0}, 2.5));
+  for (int i = 0; i < 15; ++i) Hear(3 - 0.8 * 1.2);
+  EXPECT_FALSE(dut_.IsAboutToMeet({}, {0, 0}, 2.5));
+}
+
 TEST_F(MoverWatchTest, WhatStandsDoesNotComeHoweverTheBaseDrives) {
   for (const double base : {-0.2, 0.0, 0.3, 0.6}) {
     dut_ = MoverWatch(MoverConfig{}, Footprint{});
