@@ -24,7 +24,7 @@ std::string SetOf(const Scenario& scenario, const std::string& module, const std
 /// What sets the map of planner and station. The planner's, when the scenario gives it another one than the
 /// true one; nothing in the deployment's own world, of which they have the map already.
 std::string MapOf(const Scenario& scenario) {
-  const std::string set = SetOf(scenario, "planner", "offboard");
+  std::string set = SetOf(scenario, "planner", "offboard");
   if (set.starts_with(kMapKey)) return set;
   const bool own_world = SetOf(scenario, "world", "onboard").starts_with("world=");
   return own_world ? std::string(kMapKey) + scenario.map : "";

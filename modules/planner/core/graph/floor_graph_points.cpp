@@ -22,6 +22,8 @@ constexpr double kUnevenPoint_m = 0.02;
 constexpr double kAtEnd_m = 0.3;
 /// What was heard from poses so near to each other was heard together.
 constexpr int kTogether = 1;
+/// A robot tells no crowds of points: of so many pairs that are near each other no more are looked at.
+constexpr int kMostPairs = 300;
 /// Another point that lies up to so many sigmas farther off than the one that is meant could be meant as
 /// well.
 constexpr double kRival = 2;
@@ -95,9 +97,11 @@ bool FloorGraph::AreOnOneSide(const Candidate& candidate,
 void FloorGraph::AddPointCandidates(const std::map<int, std::vector<WallSpan>>& spans,
                                     std::vector<Candidate>& found) const {
   const std::set<int> tied = TiedPoints();
+  int looked = 0;
   for (auto i = tied.begin(); i != tied.end(); ++i)
-    for (auto k = std::next(i); k != tied.end(); ++k) {
+    for (auto k = std::next(i); k != tied.end() && looked < kMostPairs; ++k) {
       const auto candidate = PointCandidate(*i, *k);
+      if (candidate) ++looked;
       if (!candidate || candidate->distance > config_.gate || AreHeardTogether(*i, *k)) continue;
       if (!apart_.contains({candidate->kept, candidate->gone}) && AreOnOneSide(*candidate, spans))
         found.push_back(*candidate);
