@@ -128,7 +128,7 @@ void DrawPassage(Drawing& page, const Box& panel, const RunRecord& record, const
 }
 
 std::string DoorFigures(const Summary& summary, const std::optional<DoorPlan>& door) {
-  const std::string gap = fmt::format("smallest gap {:.1f} cm", summary.min_gap_m * 100);
+  std::string gap = fmt::format("smallest gap {:.1f} cm", summary.min_gap_m * 100);
   if (!SeeksTheDoor(summary)) {
     const auto honoured = summary.hand->honoured();
     return fmt::format("{} of the free motion wished was made; {}",
