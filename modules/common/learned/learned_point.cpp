@@ -13,6 +13,7 @@ void LearnedPoint::Describe(Archive& a) {
   a.Number("sigma_m", sigma_m, {"m", 0, 100, "standard deviation of the place"});
   a.Number("seen_s", seen_s, {"s", 0, 1e11, "since 1970, when it was heard last"});
   RequirePlace(a, "the number of the point");
+  a.Require("sigma_m", "how well its place is known");
 }
 
 int EnterPoint(const LearnedPoint& told, std::vector<LearnedPoint>& points) {

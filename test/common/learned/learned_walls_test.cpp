@@ -130,7 +130,8 @@ TEST_F(LearnedWallsTest, DamagedFilesAreRefusedWithTheirLine) {
   EXPECT_THAT(Refused("version = 1\n[[walls]]\nid = 1\nx_m = nan\n"),
               HasSubstr("learned-map.toml:4:walls[0].x_m"));
   for (const std::string list : {"walls", "doors", "objects", "points"}) {
-    const std::string one = "[[" + list + "]]\nid = 1\nx_m = 0\ny_m = 0\n";
+    const std::string known = list == "points" ? "sigma_m = 0.02\n" : "";
+    const std::string one = "[[" + list + "]]\nid = 1\nx_m = 0\ny_m = 0\n" + known;
     EXPECT_THAT(Refused("version = 1\n" + one + one), HasSubstr("with its own id, not 1 twice")) << list;
     const std::string key = "learned-map.toml:2:" + list + "[0].";
     EXPECT_THAT(Refused("version = 1\n[[" + list + "]]\n"), HasSubstr(key + "id: expected the number of"));
@@ -139,6 +140,9 @@ TEST_F(LearnedWallsTest, DamagedFilesAreRefusedWithTheirLine) {
   }
   EXPECT_THAT(Refused("version = 1\n[[points]]\nid = 1\nx_m = 201\n"),
               HasSubstr("learned-map.toml:4:points[0].x_m: expected"));
+  EXPECT_THAT(Refused("version = 1\n[[points]]\nid = 1\nx_m = 2\ny_m = 1\n"),
+              HasSubstr("learned-map.toml:2:points[0].sigma_m: expected how well its place is known"))
+      << "a file that was cut off";
   EXPECT_THAT(Refused("version = 1\n[[objects]]\nid = 1\nkind = \"tree\"\n"),
               HasSubstr("learned-map.toml:4:objects[0].kind"));
   EXPECT_THAT(Refused("version = "), HasSubstr("learned-map.toml:1"));
