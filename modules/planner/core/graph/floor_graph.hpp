@@ -117,7 +117,9 @@ class FloorGraph {
                           std::vector<Candidate>& found) const;
   std::optional<Candidate> PointCandidate(int kept, int gone) const;
   static bool IsAmbiguous(const Candidate& candidate, const std::vector<Candidate>& all);
-  bool IsAmbiguousPoint(const Candidate& candidate) const;
+  bool IsAmbiguousPoint(const Candidate& candidate, const std::set<int>& tied) const;
+  /// What two nodes that are one differ by besides the graph's own errors, sigma of either unknown.
+  static Eigen::Vector2d UnevenOf(const GraphNode& node);
   bool AreOnOneSide(const Candidate& candidate, const std::map<int, std::vector<WallSpan>>& spans) const;
   bool AreHeardTogether(int one, int other) const;
   std::vector<Eigen::Vector2d> FoundTowards(int point) const;

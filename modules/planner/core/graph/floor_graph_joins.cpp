@@ -23,12 +23,12 @@ constexpr double kMostCost = 16;
 /// 99 % of what four numbers do by chance, squared sigmas.
 constexpr double kFour = 13.3;
 
-Vector2d UnevenOf(const GraphNode& node) {
+}  // namespace
+
+Vector2d FloorGraph::UnevenOf(const GraphNode& node) {
   return node.kind == GraphNode::Kind::kPoint ? Vector2d(kUneven_m, kUneven_m)
                                               : Vector2d(kUneven_m, kUneven_rad);
 }
-
-}  // namespace
 
 /// Where two walls are nearest along the first; nullopt: nowhere.
 std::optional<double> FloorGraph::Meet(const GraphLine& a, const std::vector<WallSpan>& own,
@@ -114,11 +114,12 @@ bool FloorGraph::Agree(const Candidate& a, const Candidate& b) const {
 /// Joins what is surest; false: nothing is sure.
 bool FloorGraph::JoinOnce() {
   const auto all = Candidates();
+  const std::set<int> tied = TiedPoints();
   std::vector<Candidate> doubtful;
   for (const Candidate& candidate : all) {
     const bool is_point = candidate.kept.kind == GraphNode::Kind::kPoint;
     if (candidate.distance > config_.gate) continue;
-    if (is_point ? IsAmbiguousPoint(candidate) : IsAmbiguous(candidate, all)) continue;
+    if (is_point ? IsAmbiguousPoint(candidate, tied) : IsAmbiguous(candidate, all)) continue;
     if (!IsKnownWell(candidate)) {
       doubtful.push_back(candidate);
     } else if (Join({candidate})) {

@@ -16,8 +16,6 @@ constexpr double kMostApart_m = 0.6;
 /// The edges of a thin wall are 14 cm apart: points nearer than this are the same one, and one that may be
 /// farther away, by three sigmas, may be the other.
 constexpr double kOnePoint_m = 0.07;
-/// What two points that are one differ by besides the graph's own errors.
-constexpr double kUnevenPoint_m = 0.02;
 /// A wall ends at a point that is no farther from its end, and from its line, than this.
 constexpr double kAtEnd_m = 0.3;
 /// What was heard from poses so near to each other was heard together.
@@ -47,7 +45,7 @@ std::optional<FloorGraph::Candidate> FloorGraph::PointCandidate(int kept, int go
   if (!covariance) return std::nullopt;
   candidate.by << -Eigen::Matrix2d::Identity(), Eigen::Matrix2d::Identity();
   Eigen::Matrix2d spread = candidate.by * *covariance * candidate.by.transpose();
-  spread += kUnevenPoint_m * kUnevenPoint_m * Eigen::Matrix2d::Identity();
+  spread.diagonal() += UnevenOf(candidate.kept).cwiseAbs2();
   candidate.sigma_m = std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(spread).eigenvalues()(1));
   candidate.distance = std::sqrt(candidate.error.dot(spread.ldlt().solve(candidate.error)));
   return candidate;
@@ -55,11 +53,12 @@ std::optional<FloorGraph::Candidate> FloorGraph::PointCandidate(int kept, int go
 
 /// Two numbers of what was heard at the same place mean two points.
 bool FloorGraph::AreHeardTogether(int one, int other) const {
-  for (const auto& [name, told] : points_)
+  for (const auto& [name, told] : points_) {
+    if (told.sight.point != one) continue;
     for (const auto& [other_name, other_told] : points_)
-      if (told.sight.point == one && other_told.sight.point == other &&
-          std::abs(told.sight.pose - other_told.sight.pose) <= kTogether)
+      if (other_told.sight.point == other && std::abs(told.sight.pose - other_told.sight.pose) <= kTogether)
         return true;
+  }
   return false;
 }
 
@@ -109,7 +108,7 @@ void FloorGraph::AddPointCandidates(const std::map<int, std::vector<WallSpan>>& 
 }
 
 /// Whether a third point, elsewhere, could be meant in place of either.
-bool FloorGraph::IsAmbiguousPoint(const Candidate& candidate) const {
+bool FloorGraph::IsAmbiguousPoint(const Candidate& candidate, const std::set<int>& tied) const {
   const auto is_rival = [&](int of, int other, int meant) {
     if (other == of || other == meant) return false;
     if ((graph_.point(other) - graph_.point(meant)).norm() < kOnePoint_m) return false;
@@ -117,7 +116,6 @@ bool FloorGraph::IsAmbiguousPoint(const Candidate& candidate) const {
     return rival && rival->distance < candidate.distance + kRival;
   };
   const int kept = candidate.kept.index, gone = candidate.gone.index;
-  const std::set<int> tied = TiedPoints();
   return std::any_of(tied.begin(), tied.end(),
                      [&](int other) { return is_rival(kept, other, gone) || is_rival(gone, other, kept); });
 }

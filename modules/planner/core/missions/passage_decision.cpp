@@ -33,15 +33,15 @@ PassageProspect PassageDecision::Expect(const DoorPlan& door, const Eigen::Matri
 
 PassageStep PassageDecision::Next(const DoorPlan& door, const Eigen::Matrix3d& covariance,
                                   double distance_m) {
-  if (entering_ || distance_m > rules_.commit_m) return PassageStep::kWait;
-  entering_ = Expect(door, covariance, distance_m, distance_m).Fits();
-  if (entering_) return PassageStep::kEnter;
+  if (settled_ || distance_m > rules_.commit_m) return PassageStep::kWait;
+  settled_ = Expect(door, covariance, distance_m, distance_m).Fits();
+  if (settled_) return PassageStep::kEnter;
   if (slow_ && distance_m > rules_.slow_commit_m) return PassageStep::kWait;
   if (!slow_ && Expect(door, covariance, distance_m, rules_.slow_commit_m).Fits()) {
     slow_ = true;
     return PassageStep::kSlowDown;
   }
-  entering_ = true;
+  settled_ = true;
   return PassageStep::kGoBack;
 }
 

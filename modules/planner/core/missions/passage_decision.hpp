@@ -56,14 +56,14 @@ class PassageDecision {
   }
 
   /// A base sets out for the opening.
-  void Begin() { entering_ = slow_ = false; }
+  void Begin() { settled_ = slow_ = false; }
   /// What to do now. kEnter, kSlowDown and kGoBack are said once.
   PassageStep Next(const DoorPlan& door, const Eigen::Matrix3d& covariance, double distance_m);
 
  private:
   PassageRules rules_;
   Footprint footprint_;
-  bool entering_ = false;  ///< the base may enter the opening, or goes back
+  bool settled_ = false;  ///< it was said that the base enters the opening, or goes back
   bool slow_ = false;
 };
 
