@@ -40,6 +40,7 @@ std::span<const CameraView> Eyes::Look() {
   for (std::size_t i = 0; i < n_; ++i) {
     views_.push_back(MakeView(cameras_[i], edges_[i].edges));
     views_.back().blur_px = edges_[i].MedianBlur();
+    views_.back().image = &greys_[i];
   }
   return views_;
 }

@@ -31,7 +31,7 @@ std::string MomentText(const MomentReport& report) {
       "{:.0f} % "
       "of what is seen of it, {:.0f} ms\n",
       name, at[0], at[1], at[2], at[3], at[4], at[5], 1e3 * SigmaOf(fix, 0), Degrees(SigmaOf(fix, 3)),
-      fix.n_matched, 100 * fix.share, report.time_ms);
+      fix.n_matched, 100 * fix.agreement.covered, report.time_ms);
 }
 
 nlohmann::ordered_json MomentToJson(const MomentReport& report, std::span<const CameraView> views) {
@@ -41,7 +41,10 @@ nlohmann::ordered_json MomentToJson(const MomentReport& report, std::span<const 
     fix.erase("matches");
     json.update(fix);
     json["edges"] = report.fix.n_matched;
-    json["share"] = report.fix.share;
+    json["share"] = report.fix.agreement.covered;
+    json["ends"] = report.fix.agreement.ends;
+    json["misfit"] = report.fix.misfit;
+    json["agreement"] = report.fix.agreement.Value(report.fix.misfit);
     json["log_odds"] = report.fix.log_odds;
     json["rival_log_odds"] = report.fix.rival_log_odds;
   } else {

@@ -183,6 +183,7 @@ SeeFindings FindAll(const SeeOptions& options) {
   for (std::size_t i = 0; i < findings.cameras.size(); ++i) {
     findings.views.push_back(MakeView(findings.cameras[i], findings.photographs[i].edges));
     findings.views.back().blur_px = findings.photographs[i].blur_px;
+    findings.views.back().image = &findings.photographs[i].grey;
   }
   if (findings.cameras.size() > 1) {
     RefuseSameImage(findings.photographs);

@@ -14,7 +14,6 @@ constexpr std::size_t kUsualCandidates = 16;
 constexpr int kSides = 4;                  ///< values of LandmarkEdge::side
 constexpr double kFullLength_px = 40;      ///< shorter predictions count less
 constexpr double kMinDensity = 0.01;       ///< similar edges per pixel: even a bare wall may hide one
-constexpr double kFreeOvershoot_px = 6;    ///< ends are not found better than that
 constexpr double kOvershootPenalty = 0.5;  ///< log odds lost per pixel beyond
 constexpr double kNearlyWhole = 0.6;       ///< covered share that counts as a whole edge
 
@@ -99,8 +98,9 @@ void Account(const Search& search, const LandmarkEdge& edge, double density, int
   const int side = std::clamp(edge.side, 0, kSides - 1);
   Odds odds = EdgeOdds(match.distance_px, density, options);
   odds.found += GreyOdds(edge, match.grey_ratio, options);
-  odds.found = std::max(
-      odds.missed, odds.found - kOvershootPenalty * std::max(0.0, match.overshoot_px - kFreeOvershoot_px));
+  odds.found =
+      std::max(odds.missed, odds.found - kOvershootPenalty *
+                                             std::max(0.0, match.overshoot_px - options.free_overshoot_px));
   ++association.n_predicted;
   association.side_predicted_px[side] += importance * kFullLength_px;
   association.best_log_odds += importance * (EdgeOdds(0, density, options).found +

@@ -71,6 +71,7 @@ EdgeMatch Collect(const std::vector<EdgeCandidate>& candidates, bool sign, const
   match.overshoot_px = (predicted.p_is_end ? before : 0) + (predicted.q_is_end ? after : 0);
   match.covered = std::min(1.0, Union(parts) / length);
   match.gap_px = {before > 0 ? -before : first, after > 0 ? -after : length - last};
+  match.is_end_in_view = {predicted.p_is_end, predicted.q_is_end};
   match.distance_px = sum / weight;
   match.grey_ratio = ratio / weight;
   match.predicted_px = length;

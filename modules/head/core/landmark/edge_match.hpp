@@ -21,7 +21,8 @@ struct EdgeMatch {
   double overshoot_px = 0;  ///< how far the image edge runs on where the model has an end
   /// How far the image edge ends before the prediction's from and to end; negative: it runs on.
   std::array<double, 2> gap_px{};
-  double grey_ratio = 0;    ///< measured value of LandmarkEdge::grey_ratio
+  std::array<bool, 2> is_end_in_view{};  ///< from, to; false: the border of the image cuts the edge there
+  double grey_ratio = 0;                 ///< measured value of LandmarkEdge::grey_ratio
   bool is_measured = true;  ///< false: evidence that the edge is there, too far off to measure the pose by
 };
 

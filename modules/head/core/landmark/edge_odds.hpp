@@ -17,7 +17,9 @@ struct AssociationOptions {
   double grey_sigma = 0.35;      ///< measured minus modelled grey_ratio: lighting
   double any_grey_sigma = 0.7;   ///< measured grey_ratio of any edge, about 0
   double grey_surprise = 0.1;    ///< share of edges beside which there is something else
-  double corner_px = 6;          ///< edges that end so near to a corner end in it
+  double free_overshoot_px =
+      6;  ///< an edge may run on so far where the model's ends: ends are not found better than that
+  double corner_px = 6;  ///< edges that end so near to a corner end in it
   /// Share of corners in which both edges end: 0.62 were measured of doors, 0.11 of cupboards, whose edges
   /// get lost in their own shadow; and where there is no corner (0.06, 0).
   double corner_detection = 0.4, corner_chance = 0.06;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <opencv2/core/mat.hpp>
 #include <vector>
 
 #include "head/core/camera/camera_model.hpp"
@@ -35,6 +36,7 @@ struct CameraView {
   std::vector<Eigen::Vector2d> points;  ///< EdgeImage::points, undistorted
   LineTable table = {};
   double blur_px = 0;  ///< of the image beyond that of its pixels, standard deviation: 0 when it is sharp
+  const cv::Mat* image = nullptr;  ///< the image itself (CV_8UC1, distorted), where it is at hand
 };
 
 /// Both images of one exposure: left, right.

@@ -9,17 +9,20 @@
 namespace priamos::bench {
 namespace {
 
-void PrintLook(const BodyScene& scene, int k, const head::FreeModelFix& fix) {
+void PrintLook(const BodyScene& scene, int k, const head::FreeModelFix& fix, double blur_px) {
   const double distance_m = scene.truth.translation().norm();
   const Eigen::Isometry3d error = scene.truth.inverse() * fix.base_from_model;
   fmt::print(
       "  {} {}: {}, {:.2f} % {:.2f} deg, sigma {:.2f} %, {} edges, {:.2f} px, misfit {:.2f}, odds {:.1f} "
-      "share {:.2f} lead {:.1f}\n",
+      "covered {:.2f} ends {:.2f} "
+      "agreement {:.2f} lead {:.1f}, sigma turn {:.2f} deg, blur {:.1f} px\n",
       scene.kind, k, head::Describe(fix.verdict),
       100 * (fix.base_from_model.translation() - scene.truth.translation()).norm() / distance_m,
       Degrees(Eigen::AngleAxisd(error.linear()).angle()),
       100 * std::sqrt(fix.covariance.topLeftCorner<3, 3>().trace()) / distance_m, fix.n_matched,
-      fix.residual_px, fix.misfit, fix.log_odds, fix.share, fix.log_odds - fix.rival_log_odds);
+      fix.residual_px, fix.misfit, fix.log_odds, fix.agreement.covered, fix.agreement.ends,
+      fix.agreement.Value(fix.misfit), fix.log_odds - fix.rival_log_odds,
+      Degrees(std::sqrt(fix.covariance.bottomRightCorner<3, 3>().trace())), blur_px);
 }
 
 }  // namespace
@@ -40,9 +43,10 @@ void AddStarts(const BodyScene& scene, const BodyStart& start, int n, Rng& rng, 
     edge_operator.Extract(scene.image, blurred);
     head::CameraView view = head::MakeView(scene.camera, blurred.edges);
     view.blur_px = blurred.MedianBlur();
+    view.image = &scene.image;
     const auto fix = head::LocateFreeModel(scene.model, believed, {&view, 1}, {});
     tally.Add(fix, scene.truth, CpuSeconds() - begin);
-    if (verbose) PrintLook(scene, k, fix);
+    if (verbose) PrintLook(scene, k, fix, view.blur_px);
   }
 }
 

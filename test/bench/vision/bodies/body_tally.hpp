@@ -25,7 +25,7 @@ class BodyTally {
   int found() const { return found_; }
 
  private:
-  int n_ = 0, found_ = 0, wrong_ = 0;
+  int n_ = 0, found_ = 0, wrong_ = 0, silently_wrong_ = 0;
   double seconds_ = 0, slowest_ = 0;
   std::vector<double> nees_, nees_position_, shift_percent_, turn_deg_;
 };

@@ -36,14 +36,16 @@ void BenchBodies(const VisionOptions& options, Figures& figures) {
     Series({.model_error_m = error_m}, kNearStart, n / 2, seed, options.verbose)
         .Print(fmt::format("Bodies whose model is off by {:.1f} mm", 1000 * error_m), {98, true}, figures);
   int found = 0;
-  for (const bool absent : {true, false}) {
-    found +=
-        Series({.is_absent = absent, .is_another = !absent}, kFarStart, n, seed, options.verbose).found();
-    seed += n;
+  for (const double blur_px : {0.0, 3.0}) {
+    for (const bool absent : {true, false}) {
+      const BodySceneOptions drawn{.blur_px = blur_px, .is_absent = absent, .is_another = !absent};
+      found += Series(drawn, kFarStart, n, seed, options.verbose).found();
+      seed += n;
+    }
   }
-  figures.AtMost(
-      fmt::format("Found of {} looks without the body, or at another one", 2 * n * kStartsPerScene), found, 0,
-      "");
+  figures.AtMost(fmt::format("Found of {} looks without the body, or at another one, sharp and blurred",
+                             4 * n * kStartsPerScene),
+                 found, 0, "");
 }
 
 }  // namespace priamos::bench

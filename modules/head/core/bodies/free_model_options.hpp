@@ -1,0 +1,30 @@
+#pragma once
+
+#include "head/core/bodies/body_proposals.hpp"
+#include "head/core/landmark/pose_solver.hpp"
+
+namespace priamos::head {
+
+/// Where a free model is looked for, and what evidence a fix needs.
+struct FreeModelOptions {
+  /// How well the believed pose is known along and about each axis: as a share of the distance from the first
+  /// camera, and as an angle.
+  double prior_share = 0.035, prior_rad = 0.03;
+  double max_prior_sigmas = 3.5;  ///< farther from the belief is "elsewhere"
+  BodyProposalOptions proposals{};
+  int min_matched = 6;                                  ///< edges that must be found, all images together
+  double min_log_odds = 6;                              ///< of the body there against clutter only
+  double min_agreement = 1.15;                          ///< BodyAgreement::Value
+  double min_lead = 4;                                  ///< log odds over the best different pose
+  double distinct_share = 0.01, distinct_rad = 0.0175;  ///< poses farther apart are different
+  double max_misfit = 4;  ///< largest variance of the edges over the one that is expected of them
+  double outlier_misfit =
+      9;  ///< an edge that fits worse than that, by the variance found, is not the model's
+  double max_outlier_share = 0.3;
+  /// Standard deviation of the place over the distance, and of the attitude, in the worst direction: what a
+  /// fix must at least tell.
+  double max_sigma_share = 0.02, max_sigma_rad = 0.05;
+  PoseSolverOptions solver{.on_floor = false, .edge_sigma_px = 0.03, .max_iterations = 15};
+};
+
+}  // namespace priamos::head

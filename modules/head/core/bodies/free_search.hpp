@@ -1,0 +1,67 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "head/core/bodies/free_model_options.hpp"
+#include "head/core/bodies/guided_views.hpp"
+#include "head/core/bodies/polyhedron.hpp"
+#include "head/core/landmark/edge_association.hpp"
+
+namespace priamos::head {
+
+/// Everything that is known of a body at one pose.
+struct BodyState {
+  Eigen::Isometry3d base_from_model;
+  LandmarkModel seen{};
+  std::shared_ptr<const GuidedViews> guided{};  ///< nullptr: compared with the images as they were given
+  Association association{};
+  PoseSolution solution{};
+  double variance_scale = 1;  ///< variance of the edges over the one that is expected of them
+
+  /// Log odds of the body there, with what the model had to be bent for it, by a variance of the edges that
+  /// is `unit` times as large as expected, and with what it says for the pose that the edges fit more
+  /// precisely than expected.
+  double LogOdds(double unit) const;
+};
+
+/// The variance of the edges over the expected one, where it is larger, of the pose that fits best.
+double UnitOf(std::span<const BodyState> states);
+
+/// Fits poses of a body to the images: from pass to pass fewer ones, through narrower gates. In the last
+/// passes the images are measured once more along the edges of each pose.
+class FreeSearch {
+ public:
+  /// Keeps references to all that it is given; `distance_m` is that of the body from the first camera.
+  FreeSearch(const Polyhedron& body, std::span<const CameraView> views, const FreeModelOptions& options,
+             double distance_m);
+
+  /// The poses after all passes, best first; those that lost too many edges are dropped.
+  std::vector<BodyState> Refine(std::span<const Eigen::Isometry3d> poses);
+
+  double blur_px() const { return blur_px_; }  ///< of the least sharp image
+
+ private:
+  struct Pass;
+
+  bool Refine(const Pass& pass, BodyState& state);
+  void Look(double gate_px, BodyState& state);
+  void Guide(BodyState& state);
+  std::span<const CameraView> ViewsOf(const BodyState& state) const;
+  bool Solve(double variance_scale, bool coarse, BodyState& state) const;
+  bool DropOutliers(BodyState& state) const;
+  bool FindVariance(BodyState& state) const;
+  double LogLikelihood(const PoseSolution& solution, int n_outliers) const;
+  double EdgeSigma() const { return options_.solver.edge_sigma_px + 0.12 * blur_px_; }
+
+  const Polyhedron& body_;
+  std::span<const CameraView> views_;
+  const FreeModelOptions& options_;
+  std::vector<const CameraModel*> cameras_;
+  std::vector<GuidedEdges> guides_;  ///< one for each view, or none if an image is not at hand
+  double blur_px_ = 0, model_sigma_px_ = 0, gate_px_ = 0;
+};
+
+}  // namespace priamos::head

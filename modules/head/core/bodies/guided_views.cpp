@@ -1,0 +1,68 @@
+#include "head/core/bodies/guided_views.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "head/core/camera/projection.hpp"
+
+namespace priamos::head {
+namespace {
+
+constexpr double kShortest_px = 12;  ///< a shorter prediction is not measured
+constexpr double kBeside_px = 2;     ///< lines of one direction so near to each other are of one edge
+constexpr double kAligned = 0.98;    ///< cosine of the angle between them
+
+/// True if the middle of `line` lies on `measured`, which has its direction.
+bool Repeats(const EdgeSegment& measured, const EdgeSegment& line) {
+  const Eigen::Vector2d middle = (line.begin + line.end) / 2 - measured.begin;
+  const double along = measured.direction().dot(middle);
+  return along > 0 && along < measured.length_px() && std::abs(measured.normal().dot(middle)) < kBeside_px &&
+         measured.direction().dot(line.direction()) > kAligned;
+}
+
+void Append(const EdgeSegment& segment, const EdgeImage& from, EdgeImage& to) {
+  EdgeSegment copy = segment;
+  copy.first_point = static_cast<int>(to.points.size());
+  const auto first = from.points.begin() + segment.first_point;
+  to.points.insert(to.points.end(), first, first + segment.n_points);
+  to.segments.push_back(copy);
+}
+
+EdgeImage MeasureAlong(const LandmarkModel& seen, const Eigen::Isometry3d& base_from_model,
+                       const CameraView& view, GuidedEdges& guide) {
+  EdgeImage measured;
+  for (const LandmarkEdge& edge : seen.edges) {
+    const auto expected =
+        ProjectEdge(*view.camera, view.size, base_from_model * edge.from, base_from_model * edge.to);
+    if (expected && expected->length_px() >= kShortest_px)
+      guide.Measure(view.camera->Distort(expected->p), view.camera->Distort(expected->q), measured);
+  }
+  return measured;
+}
+
+/// Both put together, each edge once: as it was measured where it was, else as the operator found it.
+EdgeImage Join(const EdgeImage& found, const EdgeImage& measured) {
+  EdgeImage all = found;
+  all.segments = measured.segments;
+  all.points = measured.points;
+  for (const EdgeSegment& line : found.segments) {
+    const auto repeats = [&](const EdgeSegment& m) { return Repeats(m, line); };
+    if (std::none_of(measured.segments.begin(), measured.segments.end(), repeats)) Append(line, found, all);
+  }
+  return all;
+}
+
+}  // namespace
+
+GuidedViews::GuidedViews(const LandmarkModel& seen, const Eigen::Isometry3d& base_from_model,
+                         std::span<const CameraView> views, std::span<GuidedEdges> guides) {
+  edges_.reserve(views.size());  // views_ refer to them
+  views_.reserve(views.size());
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    edges_.push_back(Join(*views[i].edges, MeasureAlong(seen, base_from_model, views[i], guides[i])));
+    views_.push_back(MakeView(*views[i].camera, edges_.back()));
+    views_.back().blur_px = views[i].blur_px;
+  }
+}
+
+}  // namespace priamos::head
