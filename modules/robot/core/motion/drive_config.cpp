@@ -22,6 +22,7 @@ void DriveConfig::Describe(Archive& a) {
   a.Section("echoes", echoes, "which sonar echoes are believed");
   a.Section("floor", floor, "what the laser's line showed of the floor");
   a.Section("movers", movers, "what comes towards the base while a path is driven");
+  a.Section("approach", approach, "what closes in on the base from any side");
   a.Section("meeting", meeting, "standing for who is about to walk into the base");
   a.Section("collision", collision, "the last filter before the wheels");
   a.Section("touch", touch, "how a touch is noticed");

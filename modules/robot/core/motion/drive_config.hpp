@@ -10,6 +10,7 @@
 #include "robot/core/safety/collision_stop.hpp"
 #include "robot/core/safety/failsafe.hpp"
 #include "robot/core/safety/touch_watch.hpp"
+#include "robot/core/sonar/approach_watch.hpp"
 #include "robot/core/sonar/echo_memory.hpp"
 #include "robot/core/sonar/floor_memory.hpp"
 #include "robot/core/sonar/mover_watch.hpp"
@@ -28,6 +29,7 @@ struct DriveConfig {
   EchoMemoryConfig echoes;
   FloorMemoryConfig floor;
   MoverConfig movers;
+  ApproachConfig approach;
   MeetingStopConfig meeting;
   CollisionStopConfig collision;
   TouchConfig touch;

@@ -59,6 +59,7 @@ DriveController::DriveController(const DriveConfig& config, const MecanumGeometr
       echoes_(config.echoes, config.footprint),
       floor_(config.floor),
       movers_(config.movers, config.footprint),
+      approach_(config.approach, config.footprint),
       meeting_(config.meeting),
       collision_(config.collision, config.footprint),
       rough_collision_(WithMargin(config.collision, config.operator_margin_m), config.footprint),
@@ -81,6 +82,7 @@ void DriveController::Reconfigure(const DriveConfig& config) {
 /// The evidence is of what stays: somebody who has walked by is not to block the way for half a minute.
 void DriveController::AddSonar(const SonarCycle& cycle, const Pose2& odom_from_base) {
   movers_.Add(cycle, odom_from_base);
+  approach_.Add(cycle, odom_from_base);
   echoes_.Add(cycle, odom_from_base,
               [this](const Eigen::Vector2d& odom) { return !HeedsMovers() || !movers_.IsOfMover(odom); });
 }
@@ -265,8 +267,11 @@ Twist2 DriveController::WantedByPath(const DriveSituation& situation, const Obst
 
 bool DriveController::StandsForMover(const DriveSituation& situation, Time now) {
   const Twist2& driven = situation.estimate->twist;
-  return meeting_.Stands(
-      movers_.IsAboutToMeet(situation.odom_from_base, {driven.vx, driven.vy}, meeting_.within_s()), now);
+  const Eigen::Vector2d velocity(driven.vx, driven.vy);
+  const bool about_to_meet =
+      approach_.Meets(velocity, meeting_.within_s()) ||
+      movers_.IsAboutToMeet(situation.odom_from_base, velocity, meeting_.within_s());
+  return meeting_.Stands(about_to_meet, now);
 }
 
 /// An operator goes to and fro beside things, and in a doorway jambs come near: one of them might be taken

@@ -15,6 +15,7 @@
 #include "robot/core/safety/collision_stop.hpp"
 #include "robot/core/safety/failsafe.hpp"
 #include "robot/core/safety/touch_watch.hpp"
+#include "robot/core/sonar/approach_watch.hpp"
 #include "robot/core/sonar/echo_memory.hpp"
 #include "robot/core/sonar/floor_memory.hpp"
 #include "robot/core/sonar/mover_watch.hpp"
@@ -153,6 +154,7 @@ class DriveController {
   EchoMemory echoes_;
   FloorMemory floor_;
   MoverWatch movers_;
+  ApproachWatch approach_;
   MeetingStop meeting_;
   CollisionStop collision_, rough_collision_;
   TouchWatch touch_;

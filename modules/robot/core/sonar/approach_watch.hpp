@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <deque>
+#include <optional>
+
+#include "common/archive.hpp"
+#include "common/geometry.hpp"
+#include "common/sonar_ring.hpp"
+#include "common/time.hpp"
+#include "robot/core/base/footprint.hpp"
+#include "robot/core/sonar/sonar_cycle.hpp"
+
+namespace priamos::robot {
+
+/// When near echoes are of something that closes in on the base.
+struct ApproachConfig {
+  double window_s = 0.5;    ///< echoes of so long decide
+  double reach_m = 1.5;     ///< echoes from farther away tell nothing
+  double least_m_s = 0.15;  ///< what comes more slowly counts as standing
+  double slant = 1;         ///< and what comes by less than this part of the speed of the base across the beam
+  double step_m = 0.25;     ///< a larger change from echo to echo is another thing
+  double agree_m = 0.3;     ///< ranges of neighbours that hear one thing differ by less
+  double body_m = 0.28;     ///< so far feet and shoulders reach beyond what the sonars hear of the legs
+
+  void Describe(Archive& a);
+};
+
+/// Finds what closes in on the base from any side in the last half second, without following it: a reflex
+/// for who is too slow, or too far beside the heading, to be found as a mover (MoverWatch). The place of an
+/// echo along the axis of its sensor, in the frame of the odometry, does not change for what stands, but for
+/// the slant of a face over which the beam is carried, and where one thing ends before another. Neither
+/// happens to two neighbouring sensors at once, and evenly. Nothing is remembered: while the base stands only
+/// what moves closes in.
+class ApproachWatch {
+ public:
+  ApproachWatch(const ApproachConfig& config, const Footprint& footprint);
+
+  /// Takes a cycle of the sonars. `odom_from_base`: pose when the cycle ended.
+  void Add(const SonarCycle& cycle, const Pose2& odom_from_base);
+  /// Whether something that closed in when the newest cycle ended meets the footprint within `within_s`, body
+  /// and all. `velocity`: of the base, in its frame [m/s].
+  bool Meets(const Eigen::Vector2d& velocity, double within_s) const;
+
+ private:
+  /// An echo, with where its sensor was.
+  struct Sample {
+    Time time{};
+    Eigen::Vector2d sonar{0, 0};
+    double range_m = 0;
+  };
+  /// What one sensor heard over the window.
+  struct Trend {
+    double closing_m_s = 0;  ///< over the floor; 0 where it does not fall evenly
+    double across_m_s = 0;   ///< of the sensor, across its axis
+    double range_m = 0;      ///< newest
+  };
+  std::optional<Trend> TrendOf(const std::deque<Sample>& samples, const Eigen::Vector2d& axis) const;
+  bool Agrees(int sensor) const;
+  bool Closes(int sensor) const;
+
+  ApproachConfig config_;
+  Footprint footprint_;
+  std::array<std::deque<Sample>, kSonars> heard_;
+  std::array<std::optional<Trend>, kSonars> trends_;
+};
+
+}  // namespace priamos::robot
