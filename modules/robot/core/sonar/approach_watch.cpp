@@ -24,6 +24,9 @@ void ApproachConfig::Describe(Archive& a) {
   a.Number("step_m", step_m, {"m", 0.05, 1, "a larger change from echo to echo is another thing"});
   a.Number("agree_m", agree_m, {"m", 0.05, 1, "ranges of neighbours that hear one thing differ by less"});
   a.Number("body_m", body_m, {"m", 0, 1, "feet and shoulders reach so far beyond the echo"});
+  a.Number("near_m", near_m, {"m", 0, 1, "who has come and is heard nearer has not gone"});
+  a.Number("wait_s", wait_s, {"s", 0, 60, "and is waited for, for so long since he came"});
+  a.Number("gone_s", gone_s, {"s", 0, 10, "so long nothing closes in, and nothing is near: he has gone"});
 }
 
 ApproachWatch::ApproachWatch(const ApproachConfig& config, const Footprint& footprint)
@@ -41,6 +44,8 @@ void ApproachWatch::Add(const SonarCycle& cycle, const Pose2& odom_from_base) {
     samples.push_back({cycle.time, odom_from_sonar.translation(), cycle.range_m[i]});
     trends_[i] = TrendOf(samples, odom_from_sonar.rotation().col(0));
   }
+  newest_ = cycle;
+  for (int sensor = 0; sensor < kSonars; ++sensor) Note(sensor);
 }
 
 /// The largest step is left out: where one thing ends before another the place changes once.
@@ -80,18 +85,44 @@ bool ApproachWatch::Closes(int sensor) const {
          Agrees(sensor);
 }
 
+/// Whoever stands beside the beam by which he came is heard by the next one.
+bool ApproachWatch::IsNear(int sensor) const {
+  constexpr std::array kAround{0, 1, kSonars - 1};
+  return std::any_of(kAround.begin(), kAround.end(), [&](int beside) {
+    const double range_m = RangeOf((sensor + beside) % kSonars);
+    return IsEcho(range_m) && range_m < config_.near_m;
+  });
+}
+
+void ApproachWatch::Note(int sensor) {
+  auto& comer = comers_[static_cast<std::size_t>(sensor)];
+  const Time now = newest_.time;
+  if (Closes(sensor))
+    comer = Comer{now, now, trends_[static_cast<std::size_t>(sensor)]->closing_m_s};
+  if (!comer) return;
+  if (IsNear(sensor)) comer->heard = now;
+  if (now - comer->heard > FromSeconds(config_.gone_s) || now - comer->closed > FromSeconds(config_.wait_s))
+    comer.reset();
+}
+
 bool ApproachWatch::Meets(const Eigen::Vector2d& velocity, double within_s) const {
-  constexpr int kLooked = 15;
   for (int sensor = 0; sensor < kSonars; ++sensor) {
-    if (!Closes(sensor)) continue;
-    const Trend& trend = *trends_[static_cast<std::size_t>(sensor)];
-    const Pose2 base_from_sonar = BaseFromSonar(sensor, footprint_.Size());
-    const Eigen::Vector2d axis = base_from_sonar.rotation().col(0);
-    const Eigen::Vector2d at = base_from_sonar.translation() + trend.range_m * axis;
-    const Eigen::Vector2d relative = -trend.closing_m_s * axis - velocity;
-    for (int i = 0; i <= kLooked; ++i)
-      if (footprint_.Distance(at + within_s * i / kLooked * relative) < config_.body_m) return true;
+    if (!comers_[static_cast<std::size_t>(sensor)]) continue;
+    if (IsNear(sensor) || Comes(sensor, velocity, within_s)) return true;
   }
+  return false;
+}
+
+bool ApproachWatch::Comes(int sensor, const Eigen::Vector2d& velocity, double within_s) const {
+  constexpr int kLooked = 15;
+  const Comer& comer = *comers_[static_cast<std::size_t>(sensor)];
+  if (!IsEcho(RangeOf(sensor)) || newest_.time - comer.closed > FromSeconds(config_.gone_s)) return false;
+  const Pose2 base_from_sonar = BaseFromSonar(sensor, footprint_.Size());
+  const Eigen::Vector2d axis = base_from_sonar.rotation().col(0);
+  const Eigen::Vector2d at = base_from_sonar.translation() + RangeOf(sensor) * axis;
+  const Eigen::Vector2d relative = -comer.closing_m_s * axis - velocity;
+  for (int i = 0; i <= kLooked; ++i)
+    if (footprint_.Distance(at + within_s * i / kLooked * relative) < config_.body_m) return true;
   return false;
 }
 

@@ -23,6 +23,9 @@ struct ApproachConfig {
   double step_m = 0.25;     ///< a larger change from echo to echo is another thing
   double agree_m = 0.3;     ///< ranges of neighbours that hear one thing differ by less
   double body_m = 0.28;     ///< so far feet and shoulders reach beyond what the sonars hear of the legs
+  double near_m = 0.35;     ///< who has come and is heard nearer has not gone ...
+  double wait_s = 4;        ///< ... and is waited for, for so long since he came
+  double gone_s = 0.5;      ///< so long nothing closes in, and nothing is near: he has gone
 
   void Describe(Archive& a);
 };
@@ -31,16 +34,17 @@ struct ApproachConfig {
 /// for who is too slow, or too far beside the heading, to be found as a mover (MoverWatch). The place of an
 /// echo along the axis of its sensor, in the frame of the odometry, does not change for what stands, but for
 /// the slant of a face over which the beam is carried, and where one thing ends before another. Neither
-/// happens to two neighbouring sensors at once, and evenly. Nothing is remembered: while the base stands only
-/// what moves closes in.
+/// happens to two neighbouring sensors at once, and evenly. While the base stands only what moves closes in.
+/// Remembered is by which sensor somebody came, until he has gone: legs that swing stand every other step,
+/// and who stands close before the base touches it where it sets off.
 class ApproachWatch {
  public:
   ApproachWatch(const ApproachConfig& config, const Footprint& footprint);
 
   /// Takes a cycle of the sonars. `odom_from_base`: pose when the cycle ended.
   void Add(const SonarCycle& cycle, const Pose2& odom_from_base);
-  /// Whether something that closed in when the newest cycle ended meets the footprint within `within_s`, body
-  /// and all. `velocity`: of the base, in its frame [m/s].
+  /// Whether something that closes in meets the footprint within `within_s`, body and all, or has come and
+  /// stands before it. `velocity`: of the base, in its frame [m/s].
   bool Meets(const Eigen::Vector2d& velocity, double within_s) const;
 
  private:
@@ -56,14 +60,25 @@ class ApproachWatch {
     double across_m_s = 0;   ///< of the sensor, across its axis
     double range_m = 0;      ///< newest
   };
+  /// Something has come by a sensor.
+  struct Comer {
+    Time closed{}, heard{};  ///< when it closed in last, and when it did that or was near
+    double closing_m_s = 0;
+  };
   std::optional<Trend> TrendOf(const std::deque<Sample>& samples, const Eigen::Vector2d& axis) const;
   bool Agrees(int sensor) const;
   bool Closes(int sensor) const;
+  bool IsNear(int sensor) const;
+  void Note(int sensor);
+  bool Comes(int sensor, const Eigen::Vector2d& velocity, double within_s) const;
+  double RangeOf(int sensor) const { return newest_.range_m[static_cast<std::size_t>(sensor)]; }
 
   ApproachConfig config_;
   Footprint footprint_;
   std::array<std::deque<Sample>, kSonars> heard_;
   std::array<std::optional<Trend>, kSonars> trends_;
+  std::array<std::optional<Comer>, kSonars> comers_;
+  SonarCycle newest_;
 };
 
 }  // namespace priamos::robot
