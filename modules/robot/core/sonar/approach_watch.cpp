@@ -11,7 +11,7 @@ constexpr std::size_t kLeastHeard = 5;
 constexpr std::ptrdiff_t kLeastFalls = 3;
 constexpr double kBack_m = 0.03;  ///< noise; a leg that swings back is no longer the nearest
 /// What a neighbour that hears the same thing from beside it must show.
-constexpr double kNeighbour_m_s = 0.1, kNeighbourSlant = 0.3;
+constexpr double kNeighbour_m_s = 0.1, kNeighbourSlant = 0.2;
 
 }  // namespace
 

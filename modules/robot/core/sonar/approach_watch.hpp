@@ -21,7 +21,7 @@ struct ApproachConfig {
   double least_m_s = 0.15;  ///< what comes more slowly counts as standing
   double slant = 1;         ///< and what comes by less than this part of the speed of the base across the beam
   double step_m = 0.25;     ///< a larger change from echo to echo is another thing
-  double agree_m = 0.3;     ///< ranges of neighbours that hear one thing differ by less
+  double agree_m = 0.4;     ///< ranges of neighbours that hear one thing differ by less
   double body_m = 0.28;     ///< so far feet and shoulders reach beyond what the sonars hear of the legs
   double near_m = 0.35;     ///< who has come and is heard nearer has not gone ...
   double wait_s = 4;        ///< ... and is waited for, for so long since he came
