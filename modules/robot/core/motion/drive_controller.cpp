@@ -139,6 +139,7 @@ std::optional<WheelSpeeds> DriveController::Step(const DriveSituation& situation
   NoteTouch(situation, now);
   const DriveSource source = Source(now);
   state_.failsafe = Watch(situation, now);
+  stands_for_comer_ = false;
   if (state_.failsafe.action == FailsafeAction::kHalt) Halt(*state_.failsafe.cause, situation, now);
 
   const Obstacles around = Around(situation.odom_from_base);
@@ -271,7 +272,8 @@ bool DriveController::StandsForMover(const DriveSituation& situation, Time now) 
   const bool about_to_meet =
       approach_.Meets(velocity, meeting_.within_s()) ||
       movers_.IsAboutToMeet(situation.odom_from_base, velocity, meeting_.within_s());
-  return meeting_.Stands(about_to_meet, now);
+  stands_for_comer_ = meeting_.Stands(about_to_meet, now);
+  return stands_for_comer_;
 }
 
 /// An operator goes to and fro beside things, and in a doorway jambs come near: one of them might be taken
@@ -354,8 +356,8 @@ void DriveController::NoteSonar(const Twist2& wanted, const Twist2& free, const 
   const double most = operated ? collision_.SpeedOf(free) : result.allowed.value_or(speed);
   const double left = speed > 0 ? std::min(1.0, most / speed) : 1.0;
   state_.nearest = operated ? Guard().Limit(wanted, around.seen, around.remembered).nearest : result.nearest;
-  state_.slowed_by_sonar = left < kSlowed;
-  state_.allowed = state_.failsafe.action == FailsafeAction::kNone ? left : 0;
+  state_.slowed_by_sonar = left < kSlowed || stands_for_comer_;
+  state_.allowed = state_.failsafe.action == FailsafeAction::kNone && !stands_for_comer_ ? left : 0;
 }
 
 void DriveController::NoteBlocked(const Twist2& wanted, const Twist2& given, Time now) {
@@ -367,16 +369,19 @@ void DriveController::NoteBlocked(const Twist2& wanted, const Twist2& given, Tim
   state_.mode = blocked ? DriveMode::kBlocked : DriveMode::kFollowing;
 }
 
-/// A base that stands on its way, or goes the other way, has touched nothing: somebody came to it, and it
-/// goes on when he has left.
+/// A base that stands, on its way or without one, or goes the other way, has touched nothing: somebody came
+/// to it, and it goes on when he has left.
 void DriveController::NoteTouch(const DriveSituation& situation, Time now) {
   std::optional<Twist2> motion;
-  if (HasPathToGo() && situation.estimate) motion = situation.estimate->twist;
+  if (Source(now) != DriveSource::kOperator && situation.estimate) motion = situation.estimate->twist;
   const auto touch = touch_.Update(situation.odom_from_base, now, motion);
-  if (!touch_.pressed()) bumped_since_.reset();
-  if (!touch) return;
-  state_.touch = touch;
-  if (touch->came) bumped_since_ = now;
+  if (touch) state_.touch = touch;
+  const bool stands = motion && SpeedOf(*motion) < kStanding;
+  const bool may_touch = stands && (!HasPathToGo() || HeedsMovers()) && approach_.MayTouch();
+  if (!touch_.pressed() && !may_touch) bumped_since_.reset();
+  if ((touch && touch->came) || (may_touch && !bumped_since_)) bumped_since_ = now;
+  if (bumped_since_) bumped_ = now;
+  state_.bumped = bumped_ && now - *bumped_ < FromSeconds(config_.failsafe.bumped_s);
 }
 
 void DriveController::NoteStuck(const DriveSituation& situation, Time now) {

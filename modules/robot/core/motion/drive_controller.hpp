@@ -46,6 +46,7 @@ struct DriveState {
   FailsafeDecision failsafe;
   std::optional<Condition> halted_by;  ///< what ended the last motion for good; until a new one begins
   std::optional<Touch> touch;          ///< newest touch that was noticed
+  bool bumped = false;                 ///< somebody touches the standing base, or did so just now
   bool slowed_by_sonar = false;
   int path_id = 0;  ///< 0 before the first path
   double remaining_m = 0;
@@ -164,9 +165,10 @@ class DriveController {
   std::optional<Path> path_;  ///< the newest order
   bool path_is_new_ = false;  ///< not yet given to the follower
   bool ever_ordered_ = false;
+  bool stands_for_comer_ = false;  ///< in this step
   std::optional<Time> last_step_, first_step_, sonar_heard_;
   std::optional<Time> pose_lost_since_, blocked_since_, stuck_since_;
-  std::optional<Time> bumped_since_;  ///< when somebody came to the base and touched it
+  std::optional<Time> bumped_since_, bumped_;  ///< since when somebody who came touches the base; newest
 };
 
 }  // namespace priamos::robot

@@ -24,6 +24,7 @@ void ApproachConfig::Describe(Archive& a) {
   a.Number("step_m", step_m, {"m", 0.05, 1, "a larger change from echo to echo is another thing"});
   a.Number("agree_m", agree_m, {"m", 0.05, 1, "ranges of neighbours that hear one thing differ by less"});
   a.Number("body_m", body_m, {"m", 0, 1, "feet and shoulders reach so far beyond the echo"});
+  a.Number("touch_m", touch_m, {"m", 0, 1, "who has come and is heard nearer may touch with the trunk"});
   a.Number("near_m", near_m, {"m", 0, 1, "who has come and is heard nearer has not gone"});
   a.Number("wait_s", wait_s, {"s", 0, 60, "and is waited for, for so long since he came"});
   a.Number("gone_s", gone_s, {"s", 0, 10, "so long nothing closes in, and nothing is near: he has gone"});
@@ -40,33 +41,37 @@ void ApproachWatch::Add(const SonarCycle& cycle, const Pose2& odom_from_base) {
       samples.pop_front();
     trends_[i].reset();
     if (!IsEcho(cycle.range_m[i]) || cycle.range_m[i] > config_.reach_m) continue;
-    const Pose2 odom_from_sonar = odom_from_base * BaseFromSonar(static_cast<int>(i), footprint_.Size());
-    samples.push_back({cycle.time, odom_from_sonar.translation(), cycle.range_m[i]});
-    trends_[i] = TrendOf(samples, odom_from_sonar.rotation().col(0));
+    samples.push_back({cycle.time, odom_from_base * BaseFromSonar(static_cast<int>(i), footprint_.Size()),
+                       cycle.range_m[i]});
+    trends_[i] = TrendOf(samples);
   }
   newest_ = cycle;
   for (int sensor = 0; sensor < kSonars; ++sensor) Note(sensor);
 }
 
 /// The largest step is left out: where one thing ends before another the place changes once.
-std::optional<ApproachWatch::Trend> ApproachWatch::TrendOf(const std::deque<Sample>& samples,
-                                                           const Eigen::Vector2d& axis) const {
+std::optional<ApproachWatch::Trend> ApproachWatch::TrendOf(const std::deque<Sample>& samples) const {
   const double lasts_s = Seconds(samples.back().time - samples.front().time);
   if (samples.size() < kLeastHeard || lasts_s < 0.75 * config_.window_s) return std::nullopt;
+  const Sample& newest = samples.back();
+  const Eigen::Vector2d axis = newest.odom_from_sonar.rotation().col(0);
   std::vector<double> falls;
   for (std::size_t k = 1; k < samples.size(); ++k) {
     const Sample &before = samples[k - 1], &after = samples[k];
-    falls.push_back((before.sonar - after.sonar).dot(axis) + before.range_m - after.range_m);
+    const Eigen::Vector2d driven =
+        after.odom_from_sonar.translation() - before.odom_from_sonar.translation();
+    falls.push_back(before.range_m - after.range_m - driven.dot(axis));
   }
   const auto [least, most] = std::minmax_element(falls.begin(), falls.end());
   const bool even = *least > -kBack_m && *most < config_.step_m &&
                     std::count_if(falls.begin(), falls.end(), [](double f) { return f > 0; }) >= kLeastFalls;
-  const Eigen::Vector2d driven = samples.back().sonar - samples.front().sonar;
+  const Eigen::Vector2d ahead(newest.range_m, 0),
+      driven = newest.odom_from_sonar * ahead - samples.front().odom_from_sonar * ahead;
   double fallen_m = -*most;
   for (const double fall : falls) fallen_m += fall;
   const double counted_s = lasts_s * (1 - 1 / double(falls.size()));
   return Trend{even ? fallen_m / counted_s : 0,
-               std::abs(axis.x() * driven.y() - axis.y() * driven.x()) / lasts_s, samples.back().range_m};
+               std::abs(axis.x() * driven.y() - axis.y() * driven.x()) / lasts_s, newest.range_m};
 }
 
 bool ApproachWatch::Agrees(int sensor) const {
@@ -86,11 +91,11 @@ bool ApproachWatch::Closes(int sensor) const {
 }
 
 /// Whoever stands beside the beam by which he came is heard by the next one.
-bool ApproachWatch::IsNear(int sensor) const {
+bool ApproachWatch::IsNearer(int sensor, double than_m) const {
   constexpr std::array kAround{0, 1, kSonars - 1};
   return std::any_of(kAround.begin(), kAround.end(), [&](int beside) {
     const double range_m = RangeOf((sensor + beside) % kSonars);
-    return IsEcho(range_m) && range_m < config_.near_m;
+    return IsEcho(range_m) && range_m < than_m;
   });
 }
 
@@ -100,7 +105,7 @@ void ApproachWatch::Note(int sensor) {
   if (Closes(sensor))
     comer = Comer{now, now, trends_[static_cast<std::size_t>(sensor)]->closing_m_s};
   if (!comer) return;
-  if (IsNear(sensor)) comer->heard = now;
+  if (IsNearer(sensor, config_.near_m)) comer->heard = now;
   if (now - comer->heard > FromSeconds(config_.gone_s) || now - comer->closed > FromSeconds(config_.wait_s))
     comer.reset();
 }
@@ -108,8 +113,14 @@ void ApproachWatch::Note(int sensor) {
 bool ApproachWatch::Meets(const Eigen::Vector2d& velocity, double within_s) const {
   for (int sensor = 0; sensor < kSonars; ++sensor) {
     if (!comers_[static_cast<std::size_t>(sensor)]) continue;
-    if (IsNear(sensor) || Comes(sensor, velocity, within_s)) return true;
+    if (IsNearer(sensor, config_.near_m) || Comes(sensor, velocity, within_s)) return true;
   }
+  return false;
+}
+
+bool ApproachWatch::MayTouch() const {
+  for (int sensor = 0; sensor < kSonars; ++sensor)
+    if (comers_[static_cast<std::size_t>(sensor)] && IsNearer(sensor, config_.touch_m)) return true;
   return false;
 }
 

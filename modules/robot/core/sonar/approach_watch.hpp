@@ -23,6 +23,7 @@ struct ApproachConfig {
   double step_m = 0.25;     ///< a larger change from echo to echo is another thing
   double agree_m = 0.4;     ///< ranges of neighbours that hear one thing differ by less
   double body_m = 0.28;     ///< so far feet and shoulders reach beyond what the sonars hear of the legs
+  double touch_m = 0.25;    ///< who has come and is heard nearer may touch with the trunk, above any bumper
   double near_m = 0.35;     ///< who has come and is heard nearer has not gone ...
   double wait_s = 4;        ///< ... and is waited for, for so long since he came
   double gone_s = 0.5;      ///< so long nothing closes in, and nothing is near: he has gone
@@ -46,18 +47,19 @@ class ApproachWatch {
   /// Whether something that closes in meets the footprint within `within_s`, body and all, or has come and
   /// stands before it. `velocity`: of the base, in its frame [m/s].
   bool Meets(const Eigen::Vector2d& velocity, double within_s) const;
+  /// Whether something has come so near that it may touch the base where no bumper is.
+  bool MayTouch() const;
 
  private:
-  /// An echo, with where its sensor was.
   struct Sample {
     Time time{};
-    Eigen::Vector2d sonar{0, 0};
+    Pose2 odom_from_sonar;
     double range_m = 0;
   };
   /// What one sensor heard over the window.
   struct Trend {
     double closing_m_s = 0;  ///< over the floor; 0 where it does not fall evenly
-    double across_m_s = 0;   ///< of the sensor, across its axis
+    double across_m_s = 0;   ///< of the place at that range before the sensor, across its axis
     double range_m = 0;      ///< newest
   };
   /// Something has come by a sensor.
@@ -65,10 +67,10 @@ class ApproachWatch {
     Time closed{}, heard{};  ///< when it closed in last, and when it did that or was near
     double closing_m_s = 0;
   };
-  std::optional<Trend> TrendOf(const std::deque<Sample>& samples, const Eigen::Vector2d& axis) const;
+  std::optional<Trend> TrendOf(const std::deque<Sample>& samples) const;
   bool Agrees(int sensor) const;
   bool Closes(int sensor) const;
-  bool IsNear(int sensor) const;
+  bool IsNearer(int sensor, double than_m) const;
   void Note(int sensor);
   bool Comes(int sensor, const Eigen::Vector2d& velocity, double within_s) const;
   double RangeOf(int sensor) const { return newest_.range_m[static_cast<std::size_t>(sensor)]; }
