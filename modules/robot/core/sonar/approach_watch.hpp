@@ -24,7 +24,7 @@ struct ApproachConfig {
   double agree_m = 0.4;     ///< ranges of neighbours that hear one thing differ by less
   double body_m = 0.28;     ///< so far feet and shoulders reach beyond what the sonars hear of the legs
   double touch_m = 0.25;    ///< who has come and is heard nearer may touch with the trunk, above any bumper
-  double near_m = 0.35;     ///< who has come and is heard nearer has not gone ...
+  double near_m = 0.6;      ///< who has come and is heard nearer has not gone ...
   double wait_s = 4;        ///< ... and is waited for, for so long since he came
   double gone_s = 0.5;      ///< so long nothing closes in, and nothing is near: he has gone
 
