@@ -61,6 +61,7 @@ DriveController::DriveController(const DriveConfig& config, const MecanumGeometr
       movers_(config.movers, config.footprint),
       approach_(config.approach, config.footprint),
       meeting_(config.meeting),
+      standstill_(config.waits_s),
       collision_(config.collision, config.footprint),
       rough_collision_(WithMargin(config.collision, config.operator_margin_m), config.footprint),
       touch_(config.touch, config.footprint, geometry),
@@ -151,6 +152,7 @@ std::optional<WheelSpeeds> DriveController::Step(const DriveSituation& situation
   SetCommanded(FromWheelSpeeds(geometry_, wheels).twist);
   NoteSonar(wanted, free, around, result);
   NoteBlocked(wanted, result.twist, now);
+  NoteWaiting(situation, around, now);
   NoteStuck(situation, now);
   NoteEnd(source);
   if (!ever_ordered_) return std::nullopt;
@@ -367,6 +369,20 @@ void DriveController::NoteBlocked(const Twist2& wanted, const Twist2& given, Tim
   if (stopped && !blocked_since_) blocked_since_ = now;
   const bool blocked = blocked_since_ && now - *blocked_since_ >= FromSeconds(config_.blocked_s);
   state_.mode = blocked ? DriveMode::kBlocked : DriveMode::kFollowing;
+}
+
+/// A base that gets nowhere because its follower finds no way around what is there, or because somebody is
+/// about to walk into it again and again, wants no motion that the collision stop could limit.
+void DriveController::NoteWaiting(const DriveSituation& situation, const Obstacles& around, Time now) {
+  constexpr Twist2 kAhead{0.1, 0, 0};
+  const bool on_its_way = state_.mode == DriveMode::kFollowing || state_.mode == DriveMode::kBlocked;
+  if (!on_its_way || !follower_.has_path() || state_.failsafe.action != FailsafeAction::kNone)
+    return standstill_.Reset();
+  if (!standstill_.Stays(situation.odom_from_base, now)) return;
+  state_.mode = DriveMode::kBlocked;
+  state_.slowed_by_sonar = true;
+  state_.allowed = 0;
+  if (!state_.nearest) state_.nearest = Guard().Limit(kAhead, around.seen, around.remembered).nearest;
 }
 
 /// A base that stands, on its way or without one, or goes the other way, has touched nothing: somebody came

@@ -10,6 +10,7 @@
 #include "robot/core/motion/deflection.hpp"
 #include "robot/core/motion/drive_config.hpp"
 #include "robot/core/motion/path_follower.hpp"
+#include "robot/core/motion/standstill.hpp"
 #include "robot/core/pose/pose_estimator.hpp"
 #include "robot/core/safety/authority.hpp"
 #include "robot/core/safety/collision_stop.hpp"
@@ -141,6 +142,7 @@ class DriveController {
   void NoteSonar(const Twist2& wanted, const Twist2& free, const Obstacles& around,
                  const CollisionStop::Result& result);
   void NoteBlocked(const Twist2& wanted, const Twist2& given, Time now);
+  void NoteWaiting(const DriveSituation& situation, const Obstacles& around, Time now);
   void NoteTouch(const DriveSituation& situation, Time now);
   void NoteStuck(const DriveSituation& situation, Time now);
   void NoteEnd(DriveSource source);
@@ -157,6 +159,7 @@ class DriveController {
   MoverWatch movers_;
   ApproachWatch approach_;
   MeetingStop meeting_;
+  Standstill standstill_;
   CollisionStop collision_, rough_collision_;
   TouchWatch touch_;
   Authority authority_;
