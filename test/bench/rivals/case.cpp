@@ -146,7 +146,8 @@ void AddCrossing(Draft& draft) {
   const double x_m = draft.rng.Uniform(3.2, 5.6), side = draft.rng.Chance(0.5) ? 1 : -1;
   const double slant = Radians(draft.rng.Uniform(-45, 45));  // positive: from ahead
   // Two of three before the front corner: beside the flank it is he who walks into the base.
-  const double ahead_m = draft.rng.Chance(2.0 / 3) ? draft.rng.Uniform(0.3, 0.8) : draft.rng.Uniform(-0.5, 0.3);
+  const double ahead_m =
+      draft.rng.Chance(2.0 / 3) ? draft.rng.Uniform(0.3, 0.8) : draft.rng.Uniform(-0.5, 0.3);
   const Vector2d at(x_m + ahead_m, draft.start.y);
   const Vector2d from_there(std::sin(slant), side * std::cos(slant));
   world::PersonPlan person;
@@ -186,7 +187,7 @@ Case GeneratedCorridor(std::uint64_t seed) {
 
 const std::map<std::string, void (*)(Draft&)>& Makers() {
   static const std::map<std::string, void (*)(Draft&)> makers{
-      {"free", Nothing},           {"box", AddBox},         {"posts", AddPosts},  {"opening", AddOpening},
+      {"free", Nothing},           {"box", AddBox},         {"posts", AddPosts},   {"opening", AddOpening},
       {"partition", AddPartition}, {"clutter", AddClutter}, {"person", AddPerson}, {"crossing", AddCrossing}};
   return makers;
 }
@@ -212,7 +213,8 @@ const std::vector<Family>& Families() {
       {"partition", "a smooth metal partition that leans into the way at 10 to 35 degrees"},
       {"clutter", "8 to 14 cartons, cupboards, bins and posts; the circle around the base gets through"},
       {"person", "somebody walks across to and fro, 0.5 to 1.2 m/s, every other one does not look"},
-      {"crossing", "somebody who does not look comes from the side, 0.3 to 1.2 m/s, once, and would meet the base"},
+      {"crossing",
+       "somebody who does not look comes from the side, 0.3 to 1.2 m/s, once, and would meet the base"},
       {"detour", "the lane of scenario detour, as shipped, to 1 m before its door"},
       {"corridor", "8 m of a corridor of `priamos world generate`, with clutter and people"}};
   return families;

@@ -271,9 +271,8 @@ Twist2 DriveController::WantedByPath(const DriveSituation& situation, const Obst
 bool DriveController::StandsForMover(const DriveSituation& situation, Time now) {
   const Twist2& driven = situation.estimate->twist;
   const Eigen::Vector2d velocity(driven.vx, driven.vy);
-  const bool about_to_meet =
-      approach_.Meets(velocity, meeting_.within_s()) ||
-      movers_.IsAboutToMeet(situation.odom_from_base, velocity, meeting_.within_s());
+  const bool about_to_meet = approach_.Meets(velocity, meeting_.within_s()) ||
+                             movers_.IsAboutToMeet(situation.odom_from_base, velocity, meeting_.within_s());
   stands_for_comer_ = meeting_.Stands(about_to_meet, now);
   return stands_for_comer_;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <deque>
 #include <optional>
+#include <vector>
 
 #include "common/archive.hpp"
 #include "common/geometry.hpp"
@@ -19,14 +20,16 @@ struct ApproachConfig {
   double window_s = 0.5;    ///< echoes of so long decide
   double reach_m = 1.5;     ///< echoes from farther away tell nothing
   double least_m_s = 0.15;  ///< what comes more slowly counts as standing
-  double slant = 1;         ///< and what comes by less than this part of the speed of the base across the beam
-  double step_m = 0.25;     ///< a larger change from echo to echo is another thing
-  double agree_m = 0.4;     ///< ranges of neighbours that hear one thing differ by less
-  double body_m = 0.28;     ///< so far feet and shoulders reach beyond what the sonars hear of the legs
-  double touch_m = 0.25;    ///< who has come and is heard nearer may touch with the trunk, above any bumper
-  double near_m = 0.6;      ///< who has come and is heard nearer has not gone ...
-  double wait_s = 4;        ///< ... and is waited for, for so long since he came
-  double gone_s = 0.5;      ///< so long nothing closes in, and nothing is near: he has gone
+  double quick_s = 0.3;     ///< who comes ...
+  double quick_m_s = 0.6;   ///< ... faster than this crosses the beams, and is known by fewer echoes
+  double slant = 0.7;     ///< and what comes by less than this part of the speed of the base across the beam
+  double step_m = 0.25;   ///< a larger change from echo to echo is another thing
+  double agree_m = 0.4;   ///< ranges of neighbours that hear one thing differ by less
+  double body_m = 0.28;   ///< so far feet and shoulders reach beyond what the sonars hear of the legs
+  double touch_m = 0.25;  ///< who has come and is heard nearer may touch with the trunk, above any bumper
+  double near_m = 0.6;    ///< who has come and is heard nearer has not gone ...
+  double wait_s = 4;      ///< ... and is waited for, for so long since he came
+  double gone_s = 0.5;    ///< so long nothing closes in, and nothing is near: he has gone
 
   void Describe(Archive& a);
 };
@@ -67,9 +70,18 @@ class ApproachWatch {
     Time closed{}, heard{};  ///< when it closed in last, and when it did that or was near
     double closing_m_s = 0;
   };
-  std::optional<Trend> TrendOf(const std::deque<Sample>& samples) const;
-  bool Agrees(int sensor) const;
-  bool Closes(int sensor) const;
+  /// What two neighbours must hear over which time.
+  struct Rule {
+    double window_s = 0;
+    std::size_t least_heard = 0;
+    double least_m_s = 0, neighbour_m_s = 0;
+  };
+  using Trends = std::array<std::optional<Trend>, kSonars>;
+  std::array<Rule, 2> Rules() const;
+  std::optional<Trend> TrendOf(const std::deque<Sample>& samples, const Rule& rule) const;
+  double SpeedOf(const std::vector<double>& falls, double lasts_s) const;
+  bool Agrees(int sensor, const Trends& trends, const Rule& rule) const;
+  std::optional<double> ClosingSpeed(int sensor) const;
   bool IsNearer(int sensor, double than_m) const;
   void Note(int sensor);
   bool Comes(int sensor, const Eigen::Vector2d& velocity, double within_s) const;
@@ -78,7 +90,7 @@ class ApproachWatch {
   ApproachConfig config_;
   Footprint footprint_;
   std::array<std::deque<Sample>, kSonars> heard_;
-  std::array<std::optional<Trend>, kSonars> trends_;
+  std::array<Trends, 2> trends_;  ///< by the rules
   std::array<std::optional<Comer>, kSonars> comers_;
   SonarCycle newest_;
 };

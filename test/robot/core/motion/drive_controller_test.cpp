@@ -260,6 +260,22 @@ TEST(DriveController, InACorridorItStandsWhenSomebodyWalksIntoIt) {
   }
 }
 
+TEST(DriveController, WhoTouchesABaseThatHasNoWayToGoIsToldUntilHeHasLeft) {
+  RobotRig rig(1, {});
+  rig.Run(0.5);
+  rig.drive().touch_watch().AddBumper(1, rig.now());
+  for (int i = 0; i < 20; ++i) {
+    rig.Run(0.1);
+    EXPECT_TRUE(rig.state().bumped) << i;
+  }
+  EXPECT_FALSE(rig.state().halted_by);
+  rig.drive().touch_watch().AddBumper(0, rig.now());
+  rig.Run(1);
+  EXPECT_TRUE(rig.state().bumped) << "until everybody has been told";
+  rig.Run(1);
+  EXPECT_FALSE(rig.state().bumped);
+}
+
 TEST(DriveController, WhoTouchesTheStandingBaseHoldsItAndItGoesOnWhenHeHasLeft) {
   RobotRig rig(1, {0, 0, 0}, {}, {}, BoxSides(2, -0.2, 2.3, 0.2));
   rig.SetPath(Straight());
