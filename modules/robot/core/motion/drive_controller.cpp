@@ -61,7 +61,6 @@ DriveController::DriveController(const DriveConfig& config, const MecanumGeometr
       movers_(config.movers, config.footprint),
       approach_(config.approach, config.footprint),
       meeting_(config.meeting),
-      standstill_(config.waits_s),
       collision_(config.collision, config.footprint),
       rough_collision_(WithMargin(config.collision, config.operator_margin_m), config.footprint),
       touch_(config.touch, config.footprint, geometry),
@@ -377,7 +376,8 @@ void DriveController::NoteWaiting(const DriveSituation& situation, const Obstacl
   const bool on_its_way = state_.mode == DriveMode::kFollowing || state_.mode == DriveMode::kBlocked;
   if (!on_its_way || !follower_.has_path() || state_.failsafe.action != FailsafeAction::kNone)
     return standstill_.Reset();
-  if (!standstill_.Stays(situation.odom_from_base, now)) return;
+  const double after_s = std::max(config_.waits_s, config_.blocked_s);
+  if (standstill_.Stays(situation.odom_from_base, now) <= FromSeconds(after_s)) return;
   state_.mode = DriveMode::kBlocked;
   state_.slowed_by_sonar = true;
   state_.allowed = 0;

@@ -260,6 +260,17 @@ TEST(DriveController, InACorridorItStandsWhenSomebodyWalksIntoIt) {
   }
 }
 
+TEST(DriveController, ABaseThatFindsNoWayAroundSaysSoAndWhatIsBeforeIt) {
+  // Closed in on all sides but behind: there is no motion that the collision stop could limit.
+  RobotRig rig(1, {}, {}, {}, {{{1.4, -3}, {1.4, 3}}, {{-2, 0.9}, {1.4, 0.9}}, {{-2, -0.9}, {1.4, -0.9}}});
+  rig.SetPath({.id = 1, .speed_m_s = 0.3, .points = {{5, 0, 0}}, .leeway = {{0.5, 0.5}}});
+  rig.Run(12);
+  EXPECT_EQ(rig.state().mode, DriveMode::kBlocked);
+  EXPECT_TRUE(rig.state().slowed_by_sonar);
+  ASSERT_TRUE(rig.state().nearest);
+  EXPECT_GT(rig.state().nearest->point.x(), 0.4);
+}
+
 TEST(DriveController, WhoTouchesABaseThatHasNoWayToGoIsToldUntilHeHasLeft) {
   RobotRig rig(1, {});
   rig.Run(0.5);

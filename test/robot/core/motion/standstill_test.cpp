@@ -12,26 +12,26 @@ constexpr Time At(double seconds) {
 }
 
 TEST(Standstill, ABaseThatDrivesOrTurnsDoesNotStay) {
-  Standstill driving(3), turning(3);
+  Standstill driving, turning;
   for (double t = 0; t < 20; t += 0.02) {
-    EXPECT_FALSE(driving.Stays({0.05 * t, 0, 0}, At(t))) << t;
-    EXPECT_FALSE(turning.Stays({0, 0, 0.1 * t}, At(t))) << t;
+    EXPECT_LT(driving.Stays({0.05 * t, 0, 0}, At(t)), FromSeconds(3)) << t;
+    EXPECT_LT(turning.Stays({0, 0, 0.1 * t}, At(t)), FromSeconds(3)) << t;
   }
 }
 
 TEST(Standstill, ABaseThatGoesToAndFroStays) {
-  Standstill dut(3);
+  Standstill dut;
   for (double t = 0; t < 20; t += 0.02)
-    EXPECT_EQ(dut.Stays({0.04 * std::sin(2 * t), 0, 0}, At(t)), t > 3.01) << t;
+    EXPECT_EQ(dut.Stays({0.04 * std::sin(2 * t), 0, 0}, At(t)), At(t) - At(0)) << t;
 }
 
 TEST(Standstill, BeginsAnewWhenItIsReset) {
-  Standstill dut(3);
+  Standstill dut;
   dut.Stays({}, At(0));
-  EXPECT_TRUE(dut.Stays({}, At(4)));
+  EXPECT_EQ(dut.Stays({}, At(4)), FromSeconds(4));
   dut.Reset();
-  EXPECT_FALSE(dut.Stays({}, At(5)));
-  EXPECT_TRUE(dut.Stays({}, At(8.1)));
+  EXPECT_EQ(dut.Stays({}, At(5)), Duration(0));
+  EXPECT_EQ(dut.Stays({}, At(8)), FromSeconds(3));
 }
 
 }  // namespace
