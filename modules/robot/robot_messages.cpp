@@ -183,6 +183,7 @@ drive_status_t ToMessage(const DriveState& state, double speed_m_s, Time now) {
   message.utime = ToUtime(now);
   message.mode = ModeCode(state.mode);
   message.limit = state.slowed_by_sonar ? drive_status_t::LIMIT_SONAR : drive_status_t::LIMIT_NONE;
+  if (state.bumped) message.limit = drive_status_t::LIMIT_TOUCHED;
   if (state.halted_by) message.limit = LimitCode(*state.halted_by);
   if (state.failsafe.cause) message.limit = LimitCode(*state.failsafe.cause);
   message.path_id = state.path_id;

@@ -139,6 +139,28 @@ void AddPerson(Draft& draft) {
   draft.world.people.push_back(person);
 }
 
+/// Somebody who does not look comes from the side at any slant and, were the base never to slow down, would
+/// walk into its outline between front and rear corner. He comes once.
+void AddCrossing(Draft& draft) {
+  constexpr double kSetsOff_s = 1.5, kBeside_m = 0.6, kFarthest_m = 2.0, kGone_s = 3600;
+  const double x_m = draft.rng.Uniform(3.2, 5.6), side = draft.rng.Chance(0.5) ? 1 : -1;
+  const double slant = Radians(draft.rng.Uniform(-45, 45));  // positive: from ahead
+  // Two of three before the front corner: beside the flank it is he who walks into the base.
+  const double ahead_m =
+      draft.rng.Chance(2.0 / 3) ? draft.rng.Uniform(0.3, 0.8) : draft.rng.Uniform(-0.5, 0.3);
+  const Vector2d at(x_m + ahead_m, draft.start.y);
+  const Vector2d from_there(std::sin(slant), side * std::cos(slant));
+  world::PersonPlan person;
+  person.speed_m_s = draft.rng.Uniform(0.3, 1.2);
+  person.attentive = false;
+  person.start_s = std::max(0.0, kSetsOff_s + (x_m - draft.start.x) / kPathSpeed_m_s -
+                                     (kFarthest_m - kBeside_m) / std::cos(slant) / person.speed_m_s);
+  const Vector2d from = at + kFarthest_m / std::cos(slant) * from_there,
+                 to = at - kFarthest_m / std::cos(slant) * from_there;
+  person.waypoints = {{from.x(), from.y(), kGone_s, 0}, {to.x(), to.y(), kGone_s, 0}};
+  draft.world.people.push_back(person);
+}
+
 /// The lane of scenario detour up to a metre before its door; the start is known.
 Case ShippedDetour(std::uint64_t seed, const std::string& deployment) {
   const auto resolve = [&](const std::string& name) { return deployment + "/" + name; };
@@ -165,8 +187,8 @@ Case GeneratedCorridor(std::uint64_t seed) {
 
 const std::map<std::string, void (*)(Draft&)>& Makers() {
   static const std::map<std::string, void (*)(Draft&)> makers{
-      {"free", Nothing},           {"box", AddBox},         {"posts", AddPosts},  {"opening", AddOpening},
-      {"partition", AddPartition}, {"clutter", AddClutter}, {"person", AddPerson}};
+      {"free", Nothing},           {"box", AddBox},         {"posts", AddPosts},   {"opening", AddOpening},
+      {"partition", AddPartition}, {"clutter", AddClutter}, {"person", AddPerson}, {"crossing", AddCrossing}};
   return makers;
 }
 
@@ -191,6 +213,8 @@ const std::vector<Family>& Families() {
       {"partition", "a smooth metal partition that leans into the way at 10 to 35 degrees"},
       {"clutter", "8 to 14 cartons, cupboards, bins and posts; the circle around the base gets through"},
       {"person", "somebody walks across to and fro, 0.5 to 1.2 m/s, every other one does not look"},
+      {"crossing",
+       "somebody who does not look comes from the side, 0.3 to 1.2 m/s, once, and would meet the base"},
       {"detour", "the lane of scenario detour, as shipped, to 1 m before its door"},
       {"corridor", "8 m of a corridor of `priamos world generate`, with clutter and people"}};
   return families;

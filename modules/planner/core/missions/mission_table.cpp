@@ -9,6 +9,18 @@
 namespace priamos::planner {
 namespace {
 
+/// A report of a touch, after the one before it: somebody who comes to a robot that stood already, without a
+/// way to go, has ended no motion.
+DriveReport WithoutBump(DriveReport drive, const std::optional<DriveReport>& before) {
+  const bool stood = before && before->path_id == drive.path_id && !before->touched &&
+                     before->mode == drive.mode &&
+                     (drive.mode == DriveMode::kHolding || drive.mode == DriveMode::kArrived);
+  if (!drive.touched || !stood) return drive;
+  drive.touched = false;
+  drive.limit = "somebody touched the standing robot";
+  return drive;
+}
+
 std::string Because(const DriveReport& drive) {
   return drive.limit.empty() ? "" : ": " + drive.limit;
 }
@@ -73,7 +85,8 @@ void MissionTable::OnPose(const RobotPose& pose) {
   if (!newest || pose.stamp > newest->stamp) newest = pose;
 }
 
-void MissionTable::OnDrive(const DriveReport& drive, Time now) {
+void MissionTable::OnDrive(const DriveReport& told, Time now) {
+  const DriveReport drive = WithoutBump(told, control_.heard().drive);
   control_.NoteDrive(drive);
   NoteTouch(drive);
   // Who was ordered to stand is not stopped by anything.

@@ -48,7 +48,7 @@ class MissionTable {
   std::optional<double> Silence_s(Time now) const;
 
   void OnPose(const RobotPose& pose);
-  void OnDrive(const DriveReport& drive, Time now);
+  void OnDrive(const DriveReport& told, Time now);
   void OnLook(const LookResult& result) {
     control_.NotePlaced(result);
     lost_.Note(result);

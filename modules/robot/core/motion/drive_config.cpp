@@ -8,6 +8,7 @@ void DriveConfig::Describe(Archive& a) {
   a.Number("lost_yaw_deg", lost_yaw_deg,
            {"deg", 1, 90, "no path is driven by a pose with a larger sigma of the heading"});
   a.Number("blocked_s", blocked_s, {"s", 0, 60, "standing before an obstacle for this long is BLOCKED"});
+  a.Number("waits_s", waits_s, {"s", 0.5, 60, "getting nowhere on a path for this long is BLOCKED, too"});
   a.Number("operator_margin_m", operator_margin_m,
            {"m", 0, 0.5,
             "added to the margins of collision for an operator, and where a line may be left by little"});
@@ -22,6 +23,7 @@ void DriveConfig::Describe(Archive& a) {
   a.Section("echoes", echoes, "which sonar echoes are believed");
   a.Section("floor", floor, "what the laser's line showed of the floor");
   a.Section("movers", movers, "what comes towards the base while a path is driven");
+  a.Section("approach", approach, "what closes in on the base from any side");
   a.Section("meeting", meeting, "standing for who is about to walk into the base");
   a.Section("collision", collision, "the last filter before the wheels");
   a.Section("touch", touch, "how a touch is noticed");

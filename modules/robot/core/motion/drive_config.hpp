@@ -10,6 +10,7 @@
 #include "robot/core/safety/collision_stop.hpp"
 #include "robot/core/safety/failsafe.hpp"
 #include "robot/core/safety/touch_watch.hpp"
+#include "robot/core/sonar/approach_watch.hpp"
 #include "robot/core/sonar/echo_memory.hpp"
 #include "robot/core/sonar/floor_memory.hpp"
 #include "robot/core/sonar/mover_watch.hpp"
@@ -28,6 +29,7 @@ struct DriveConfig {
   EchoMemoryConfig echoes;
   FloorMemoryConfig floor;
   MoverConfig movers;
+  ApproachConfig approach;
   MeetingStopConfig meeting;
   CollisionStopConfig collision;
   TouchConfig touch;
@@ -38,6 +40,7 @@ struct DriveConfig {
   double lost_position_m = 0.5;  ///< sigma of the position beyond which no path is driven
   double lost_yaw_deg = 12;
   double blocked_s = 0.5;
+  double waits_s = 3;          ///< on its way, but nowhere for so long: something closes the way
   double fix_needed_m = 0.25;  ///< sigma beyond which a silent head matters
 
   void Describe(Archive& a);

@@ -59,6 +59,7 @@ DriveController::DriveController(const DriveConfig& config, const MecanumGeometr
       echoes_(config.echoes, config.footprint),
       floor_(config.floor),
       movers_(config.movers, config.footprint),
+      approach_(config.approach, config.footprint),
       meeting_(config.meeting),
       collision_(config.collision, config.footprint),
       rough_collision_(WithMargin(config.collision, config.operator_margin_m), config.footprint),
@@ -81,6 +82,7 @@ void DriveController::Reconfigure(const DriveConfig& config) {
 /// The evidence is of what stays: somebody who has walked by is not to block the way for half a minute.
 void DriveController::AddSonar(const SonarCycle& cycle, const Pose2& odom_from_base) {
   movers_.Add(cycle, odom_from_base);
+  approach_.Add(cycle, odom_from_base);
   echoes_.Add(cycle, odom_from_base,
               [this](const Eigen::Vector2d& odom) { return !HeedsMovers() || !movers_.IsOfMover(odom); });
 }
@@ -137,6 +139,7 @@ std::optional<WheelSpeeds> DriveController::Step(const DriveSituation& situation
   NoteTouch(situation, now);
   const DriveSource source = Source(now);
   state_.failsafe = Watch(situation, now);
+  stands_for_comer_ = false;
   if (state_.failsafe.action == FailsafeAction::kHalt) Halt(*state_.failsafe.cause, situation, now);
 
   const Obstacles around = Around(situation.odom_from_base);
@@ -148,6 +151,7 @@ std::optional<WheelSpeeds> DriveController::Step(const DriveSituation& situation
   SetCommanded(FromWheelSpeeds(geometry_, wheels).twist);
   NoteSonar(wanted, free, around, result);
   NoteBlocked(wanted, result.twist, now);
+  NoteWaiting(situation, around, now);
   NoteStuck(situation, now);
   NoteEnd(source);
   if (!ever_ordered_) return std::nullopt;
@@ -265,8 +269,11 @@ Twist2 DriveController::WantedByPath(const DriveSituation& situation, const Obst
 
 bool DriveController::StandsForMover(const DriveSituation& situation, Time now) {
   const Twist2& driven = situation.estimate->twist;
-  return meeting_.Stands(
-      movers_.IsAboutToMeet(situation.odom_from_base, {driven.vx, driven.vy}, meeting_.within_s()), now);
+  const Eigen::Vector2d velocity(driven.vx, driven.vy);
+  const bool about_to_meet = approach_.Meets(velocity, meeting_.within_s()) ||
+                             movers_.IsAboutToMeet(situation.odom_from_base, velocity, meeting_.within_s());
+  stands_for_comer_ = meeting_.Stands(about_to_meet, now);
+  return stands_for_comer_;
 }
 
 /// An operator goes to and fro beside things, and in a doorway jambs come near: one of them might be taken
@@ -349,8 +356,8 @@ void DriveController::NoteSonar(const Twist2& wanted, const Twist2& free, const 
   const double most = operated ? collision_.SpeedOf(free) : result.allowed.value_or(speed);
   const double left = speed > 0 ? std::min(1.0, most / speed) : 1.0;
   state_.nearest = operated ? Guard().Limit(wanted, around.seen, around.remembered).nearest : result.nearest;
-  state_.slowed_by_sonar = left < kSlowed;
-  state_.allowed = state_.failsafe.action == FailsafeAction::kNone ? left : 0;
+  state_.slowed_by_sonar = left < kSlowed || stands_for_comer_;
+  state_.allowed = state_.failsafe.action == FailsafeAction::kNone && !stands_for_comer_ ? left : 0;
 }
 
 void DriveController::NoteBlocked(const Twist2& wanted, const Twist2& given, Time now) {
@@ -362,16 +369,34 @@ void DriveController::NoteBlocked(const Twist2& wanted, const Twist2& given, Tim
   state_.mode = blocked ? DriveMode::kBlocked : DriveMode::kFollowing;
 }
 
-/// A base that stands on its way, or goes the other way, has touched nothing: somebody came to it, and it
-/// goes on when he has left.
+/// A base that gets nowhere because its follower finds no way around what is there, or because somebody is
+/// about to walk into it again and again, wants no motion that the collision stop could limit.
+void DriveController::NoteWaiting(const DriveSituation& situation, const Obstacles& around, Time now) {
+  constexpr Twist2 kAhead{0.1, 0, 0};
+  const bool on_its_way = state_.mode == DriveMode::kFollowing || state_.mode == DriveMode::kBlocked;
+  if (!on_its_way || !follower_.has_path() || state_.failsafe.action != FailsafeAction::kNone)
+    return standstill_.Reset();
+  const double after_s = std::max(config_.waits_s, config_.blocked_s);
+  if (standstill_.Stays(situation.odom_from_base, now) <= FromSeconds(after_s)) return;
+  state_.mode = DriveMode::kBlocked;
+  state_.slowed_by_sonar = true;
+  state_.allowed = 0;
+  if (!state_.nearest) state_.nearest = Guard().Limit(kAhead, around.seen, around.remembered).nearest;
+}
+
+/// A base that stands, on its way or without one, or goes the other way, has touched nothing: somebody came
+/// to it, and it goes on when he has left.
 void DriveController::NoteTouch(const DriveSituation& situation, Time now) {
   std::optional<Twist2> motion;
-  if (HasPathToGo() && situation.estimate) motion = situation.estimate->twist;
+  if (Source(now) != DriveSource::kOperator && situation.estimate) motion = situation.estimate->twist;
   const auto touch = touch_.Update(situation.odom_from_base, now, motion);
-  if (!touch_.pressed()) bumped_since_.reset();
-  if (!touch) return;
-  state_.touch = touch;
-  if (touch->came) bumped_since_ = now;
+  if (touch) state_.touch = touch;
+  const bool stands = motion && SpeedOf(*motion) < kStanding;
+  const bool may_touch = stands && (!HasPathToGo() || HeedsMovers()) && approach_.MayTouch();
+  if (!touch_.pressed() && !may_touch) bumped_since_.reset();
+  if ((touch && touch->came) || (may_touch && !bumped_since_)) bumped_since_ = now;
+  if (bumped_since_) bumped_ = now;
+  state_.bumped = bumped_ && now - *bumped_ < FromSeconds(config_.failsafe.bumped_s);
 }
 
 void DriveController::NoteStuck(const DriveSituation& situation, Time now) {

@@ -10,11 +10,13 @@
 #include "robot/core/motion/deflection.hpp"
 #include "robot/core/motion/drive_config.hpp"
 #include "robot/core/motion/path_follower.hpp"
+#include "robot/core/motion/standstill.hpp"
 #include "robot/core/pose/pose_estimator.hpp"
 #include "robot/core/safety/authority.hpp"
 #include "robot/core/safety/collision_stop.hpp"
 #include "robot/core/safety/failsafe.hpp"
 #include "robot/core/safety/touch_watch.hpp"
+#include "robot/core/sonar/approach_watch.hpp"
 #include "robot/core/sonar/echo_memory.hpp"
 #include "robot/core/sonar/floor_memory.hpp"
 #include "robot/core/sonar/mover_watch.hpp"
@@ -45,6 +47,7 @@ struct DriveState {
   FailsafeDecision failsafe;
   std::optional<Condition> halted_by;  ///< what ended the last motion for good; until a new one begins
   std::optional<Touch> touch;          ///< newest touch that was noticed
+  bool bumped = false;                 ///< somebody touches the standing base, or did so just now
   bool slowed_by_sonar = false;
   int path_id = 0;  ///< 0 before the first path
   double remaining_m = 0;
@@ -139,6 +142,7 @@ class DriveController {
   void NoteSonar(const Twist2& wanted, const Twist2& free, const Obstacles& around,
                  const CollisionStop::Result& result);
   void NoteBlocked(const Twist2& wanted, const Twist2& given, Time now);
+  void NoteWaiting(const DriveSituation& situation, const Obstacles& around, Time now);
   void NoteTouch(const DriveSituation& situation, Time now);
   void NoteStuck(const DriveSituation& situation, Time now);
   void NoteEnd(DriveSource source);
@@ -153,7 +157,9 @@ class DriveController {
   EchoMemory echoes_;
   FloorMemory floor_;
   MoverWatch movers_;
+  ApproachWatch approach_;
   MeetingStop meeting_;
+  Standstill standstill_;
   CollisionStop collision_, rough_collision_;
   TouchWatch touch_;
   Authority authority_;
@@ -162,9 +168,10 @@ class DriveController {
   std::optional<Path> path_;  ///< the newest order
   bool path_is_new_ = false;  ///< not yet given to the follower
   bool ever_ordered_ = false;
+  bool stands_for_comer_ = false;  ///< in this step
   std::optional<Time> last_step_, first_step_, sonar_heard_;
   std::optional<Time> pose_lost_since_, blocked_since_, stuck_since_;
-  std::optional<Time> bumped_since_;  ///< when somebody came to the base and touched it
+  std::optional<Time> bumped_since_, bumped_;  ///< since when somebody who came touches the base; newest
 };
 
 }  // namespace priamos::robot

@@ -75,6 +75,18 @@ TEST(MissionTable, ATouchThatIsToldWhenTheNextPathIsOnItsWayCounts) {
   EXPECT_THAT(f.dut.state().text, ::testing::HasSubstr("touched"));
 }
 
+TEST(MissionTable, WhoTouchesARobotThatStoodAlreadyEndsNoMission) {
+  Frame f;
+  DriveReport drive;
+  drive.path_id = f.Drive().path_id;
+  drive.mode = DriveMode::kArrived;
+  f.dut.OnDrive(drive, f.now);
+  drive.touched = true;
+  for (int i = 0; i < 3; ++i) f.dut.OnDrive(drive, f.now);
+  f.Step();
+  EXPECT_NE(f.dut.state().phase, Phase::kFailed) << f.dut.state().text;
+}
+
 TEST(MissionTable, ATouchOfAnEarlierMissionDoesNotCount) {
   Frame f;
   const PathOrder path = f.Drive();

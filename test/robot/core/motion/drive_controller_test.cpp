@@ -260,6 +260,33 @@ TEST(DriveController, InACorridorItStandsWhenSomebodyWalksIntoIt) {
   }
 }
 
+TEST(DriveController, ABaseThatFindsNoWayAroundSaysSoAndWhatIsBeforeIt) {
+  // Closed in on all sides but behind: there is no motion that the collision stop could limit.
+  RobotRig rig(1, {}, {}, {}, {{{1.4, -3}, {1.4, 3}}, {{-2, 0.9}, {1.4, 0.9}}, {{-2, -0.9}, {1.4, -0.9}}});
+  rig.SetPath({.id = 1, .speed_m_s = 0.3, .points = {{5, 0, 0}}, .leeway = {{0.5, 0.5}}});
+  rig.Run(12);
+  EXPECT_EQ(rig.state().mode, DriveMode::kBlocked);
+  EXPECT_TRUE(rig.state().slowed_by_sonar);
+  ASSERT_TRUE(rig.state().nearest);
+  EXPECT_GT(rig.state().nearest->point.x(), 0.4);
+}
+
+TEST(DriveController, WhoTouchesABaseThatHasNoWayToGoIsToldUntilHeHasLeft) {
+  RobotRig rig(1, {});
+  rig.Run(0.5);
+  rig.drive().touch_watch().AddBumper(1, rig.now());
+  for (int i = 0; i < 20; ++i) {
+    rig.Run(0.1);
+    EXPECT_TRUE(rig.state().bumped) << i;
+  }
+  EXPECT_FALSE(rig.state().halted_by);
+  rig.drive().touch_watch().AddBumper(0, rig.now());
+  rig.Run(1);
+  EXPECT_TRUE(rig.state().bumped) << "until everybody has been told";
+  rig.Run(1);
+  EXPECT_FALSE(rig.state().bumped);
+}
+
 TEST(DriveController, WhoTouchesTheStandingBaseHoldsItAndItGoesOnWhenHeHasLeft) {
   RobotRig rig(1, {0, 0, 0}, {}, {}, BoxSides(2, -0.2, 2.3, 0.2));
   rig.SetPath(Straight());

@@ -52,6 +52,59 @@ TEST(MoverRun, WhoWalksIntoTheBaseWalksIntoOneThatStands) {
     }
 }
 
+/// Round, as far as sonars are concerned: whatever the side, a face looks at them.
+std::vector<Surface> RoundLeg(const Eigen::Vector2d& at) {
+  constexpr int kFaces = 12;
+  constexpr double kRadius_m = 0.075;
+  const auto corner = [&](int i) -> Eigen::Vector2d {
+    const double angle = 2 * kPi * i / kFaces;
+    return at + kRadius_m * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+  };
+  std::vector<Surface> faces;
+  for (int i = 0; i < kFaces; ++i) faces.push_back({corner(i), corner(i + 1)});
+  return faces;
+}
+
+/// Two legs of somebody who walks along y.
+std::vector<Surface> LegsAcross(const Eigen::Vector2d& at) {
+  auto legs = RoundLeg(at - Eigen::Vector2d(0.11, 0));
+  const auto right = RoundLeg(at + Eigen::Vector2d(0.11, 0));
+  legs.insert(legs.end(), right.begin(), right.end());
+  return legs;
+}
+
+/// Somebody slow, from `slant` off the side, who would meet the front corner of a base that drove on.
+double FastestBesideWhoCrosses(std::uint64_t seed, double speed_m_s, double slant_rad) {
+  constexpr double kMeets_s = 9, kCorner_m = 0.55;
+  RobotRig rig(seed, {}, {}, {}, {});
+  rig.SetPath({.id = 1, .speed_m_s = 0.3, .points = {{8, 0, 0}}, .leeway = {{1, 1}}});
+  const Eigen::Vector2d meets(0.3 * (kMeets_s - 0.7) + kCorner_m, 0.3);
+  const Eigen::Vector2d velocity = speed_m_s * Eigen::Vector2d(-std::sin(slant_rad), -std::cos(slant_rad));
+  Eigen::Vector2d at = meets - kMeets_s * velocity;
+  double fastest = 0;
+  for (int i = 0; i < 50 * (kMeets_s + 1); ++i) {
+    const Eigen::Vector2d next = at + velocity / 50;
+    rig.sonars().Clear();
+    rig.sonars().Add(LegsAcross(next));
+    if (rig.sonars().Gap(rig.base().truth()) > 0.02) at = next;
+    rig.sonars().Clear();
+    rig.sonars().Add(LegsAcross(at));
+    const double gap_m = rig.sonars().Gap(rig.base().truth());
+    rig.Tick();
+    const Twist2 twist = rig.base().twist();
+    if (gap_m < 0.08) fastest = std::max(fastest, std::hypot(twist.vx, twist.vy));
+  }
+  return fastest;
+}
+
+TEST(MoverRun, WhoComesSlowlyFromTheSideWalksIntoABaseThatStands) {
+  for (const double speed_m_s : {0.5, 0.7, 0.9})
+    for (const double slant_deg : {-20.0, 0.0, 30.0})
+      for (std::uint64_t seed = 1; seed <= 2; ++seed)
+        EXPECT_LT(FastestBesideWhoCrosses(seed, speed_m_s, Radians(slant_deg)), 0.05)
+            << speed_m_s << " m/s, " << slant_deg << " degrees, seed " << seed;
+}
+
 TEST(MoverRun, WhoHasComeAndGoneBlocksNothing) {
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
     RobotRig rig(seed, {}, {}, {}, Hall());
