@@ -15,6 +15,12 @@ void AddDeploymentOption(CLI::App& verb, std::string& deployment) {
       ->capture_default_str();
 }
 
+void AddLiveDeploymentOption(CLI::App& verb, std::string& deployment) {
+  verb.add_option(
+      "--deployment", deployment,
+      "sim, robot, or a folder of configurations, with a slash; without it the one that is up, or sim");
+}
+
 std::string FolderOfDeployment(const std::string& deployment) {
   return FindDeployment(deployment, ThisProgram());
 }

@@ -11,6 +11,8 @@ namespace priamos::cli {
 /// Adds the option `--deployment`, by default sim. What it names is found by FolderOfDeployment, once the
 /// verb runs.
 void AddDeploymentOption(CLI::App& verb, std::string& deployment);
+/// Adds the option `--deployment` of a verb that asks what is up; left out it stays empty.
+void AddLiveDeploymentOption(CLI::App& verb, std::string& deployment);
 /// Folder of the configuration of `deployment`. Throws ConfigError when it is not found.
 std::string FolderOfDeployment(const std::string& deployment);
 

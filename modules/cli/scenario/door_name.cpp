@@ -26,10 +26,9 @@ int DoorNamed(const GroundPlan& plan, const std::string& name, const std::string
                                 known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
 }
 
-int DoorOfDeployment(const std::string& folder, const std::string& name) {
-  const auto file = std::filesystem::path(folder) / "planner.toml";
-  const auto config = bus::LoadAppConfig<planner::PlannerConfig>({file.string(), {}});
-  const std::string map = (file.parent_path() / config.map).lexically_normal().string();
+int DoorOfPlanner(const ConfigSource& planner, const std::string& name) {
+  const auto config = bus::LoadAppConfig<planner::PlannerConfig>(planner);
+  const std::string map = (std::filesystem::path(planner.Folder()) / config.map).lexically_normal().string();
   return DoorNamed(LoadConfig<GroundPlan>(map), name, map);
 }
 

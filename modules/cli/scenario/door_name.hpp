@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "common/config.hpp"
 #include "common/ground_plan.hpp"
 
 namespace priamos::cli {
@@ -10,7 +11,7 @@ namespace priamos::cli {
 /// this map. Throws ConfigError that names the nearest ones; `map` names where the plan is from.
 int DoorNamed(const GroundPlan& plan, const std::string& name, const std::string& map);
 
-/// The same in the map that the planner of the deployment in `folder` has.
-int DoorOfDeployment(const std::string& folder, const std::string& name);
+/// The same in the map of the planner that has the configuration `planner`.
+int DoorOfPlanner(const ConfigSource& planner, const std::string& name);
 
 }  // namespace priamos::cli

@@ -179,14 +179,13 @@ mission_command_t OrderOf(const MissionFile& file, const planner::PlannerConfig&
   return order;
 }
 
-mission_command_t OrderOfFile(const std::string& file, const std::string& folder) {
-  return OrderOf(LoadConfig<MissionFile>(file), folder);
+mission_command_t OrderOfFile(const std::string& file, const ConfigSource& planner) {
+  return OrderOf(LoadConfig<MissionFile>(file), planner);
 }
 
-mission_command_t OrderOf(const MissionFile& file, const std::string& folder) {
-  const auto planner_file = std::filesystem::path(folder) / "planner.toml";
-  const auto config = bus::LoadAppConfig<planner::PlannerConfig>({planner_file.string(), {}});
-  const std::string map = (planner_file.parent_path() / config.map).lexically_normal().string();
+mission_command_t OrderOf(const MissionFile& file, const ConfigSource& planner) {
+  const auto config = bus::LoadAppConfig<planner::PlannerConfig>(planner);
+  const std::string map = (std::filesystem::path(planner.Folder()) / config.map).lexically_normal().string();
   return OrderOf(file, config, LoadConfig<GroundPlan>(map), map);
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/archive.hpp"
+#include "common/config.hpp"
 #include "common/input/section_place.hpp"
 #include "planner/planner_config.hpp"
 #include "priamos/mission_command_t.hpp"
@@ -34,13 +35,13 @@ struct MissionFile {
   void Describe(Archive& a);
 };
 
-/// The order that the file gives to the planner of the deployment in `folder`. Everything that can be known
-/// beforehand is checked against its map: doors by name, places that the base fits, ways between them. Throws
-/// ConfigError: file, line, what is wrong.
-mission_command_t OrderOfFile(const std::string& file, const std::string& folder);
+/// The order that the file gives to the planner that has the configuration `planner`. Everything that can be
+/// known beforehand is checked against its map: doors by name, places that the base fits, ways between them.
+/// Throws ConfigError: file, line, what is wrong.
+mission_command_t OrderOfFile(const std::string& file, const ConfigSource& planner);
 
 /// The same of steps that stand in no file, or in one that is read already.
-mission_command_t OrderOf(const MissionFile& file, const std::string& folder);
+mission_command_t OrderOf(const MissionFile& file, const ConfigSource& planner);
 
 /// The same of a file that is read already, with the planner's configuration and plan.
 mission_command_t OrderOf(const MissionFile& file, const planner::PlannerConfig& config,

@@ -89,9 +89,14 @@ std::optional<std::string> UpLock::FolderOf(pid_t pid) {
 }
 
 ordered_json ToJson(const UpState& state) {
-  ordered_json json{{"deployment", state.deployment}, {"folder", state.folder},
-                    {"ready", state.ready},           {"up_s", state.up_s},
-                    {"alarms", state.alarms},         {"processes", ordered_json::array()}};
+  ordered_json json{{"deployment", state.deployment},
+                    {"config_folder", state.config_folder},
+                    {"planner_set", state.planner_set},
+                    {"folder", state.folder},
+                    {"ready", state.ready},
+                    {"up_s", state.up_s},
+                    {"alarms", state.alarms},
+                    {"processes", ordered_json::array()}};
   for (std::size_t i = 0; i < state.processes.size(); ++i) {
     const ProcessReport& p = state.processes[i];
     json["processes"].push_back({{"name", p.name},
@@ -116,7 +121,14 @@ std::optional<UpState> ReadUpState(const std::string& log_root) {
   const auto json = ordered_json::parse(in, nullptr, false);
   if (!json.is_object()) return std::nullopt;
   try {
-    UpState state{json.at("deployment"), json.at("folder"), json.at("ready"), json.at("up_s"), {}, {},
+    UpState state{json.at("deployment"),
+                  json.at("config_folder"),
+                  json.at("planner_set"),
+                  json.at("folder"),
+                  json.at("ready"),
+                  json.at("up_s"),
+                  {},
+                  {},
                   json.at("alarms")};
     for (const auto& p : json.at("processes")) {
       ProcessReport report;

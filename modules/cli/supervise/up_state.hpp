@@ -37,7 +37,9 @@ class UpLock {
 /// The contents of up.json.
 struct UpState {
   std::string deployment;
-  std::string folder;  ///< consoles
+  std::string config_folder;  ///< of its configuration
+  std::string planner_set;    ///< what its scenario sets of the planner, as `--set`; empty: nothing
+  std::string folder;         ///< consoles
   bool ready = false;
   double up_s = 0;
   std::vector<ProcessReport> processes;

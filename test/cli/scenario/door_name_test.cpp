@@ -60,12 +60,12 @@ TEST(DoorName, AMapWithoutDoorsSaysSo) {
   EXPECT_EQ(Refusal({}, "laboratory"), "unknown door \"laboratory\"; hall.toml has none");
 }
 
-TEST(DoorName, OfADeploymentIsThatOfItsPlannersMap) {
+TEST(DoorName, OfAPlannerIsThatOfItsMap) {
   const TemporaryFolder folder;
   std::ofstream(folder / "planner.toml") << "map = \"maps/hall.toml\"\n";
   try {
-    DoorOfDeployment(folder.path(), "laboratory");
-    FAIL() << "the deployment has no such map";
+    DoorOfPlanner({folder / "planner.toml", {}}, "laboratory");
+    FAIL() << "there is no such map";
   } catch (const ConfigError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr((folder / "maps/hall.toml").string()));
   }

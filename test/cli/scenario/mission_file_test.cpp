@@ -93,8 +93,8 @@ TEST(MissionFile, TooManyStepsAreRefusedBeforeTheyAreRehearsed) {
 }
 
 TEST(MissionFile, TheShippedOneIsGood) {
-  const auto order =
-      OrderOfFile(PRIAMOS_SOURCE_DIR "/config/sim/missions/round.toml", PRIAMOS_SOURCE_DIR "/config/sim");
+  const auto order = OrderOfFile(PRIAMOS_SOURCE_DIR "/config/sim/missions/round.toml",
+                                 {PRIAMOS_SOURCE_DIR "/config/sim/planner.toml", {}});
   EXPECT_EQ(order.n_steps, 4);
 }
 

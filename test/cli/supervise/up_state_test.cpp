@@ -22,8 +22,15 @@ using testing::SizeIs;
 using testing::StartsWith;
 
 UpState TwoProcesses() {
-  UpState state{
-      "config/sim", "/tmp/consoles", true, 61.4, {}, {3.25, 0.5}, {"ALARM (caution) of head: dark"}};
+  UpState state;
+  state.deployment = "config/sim";
+  state.config_folder = "/opt/config/sim";
+  state.planner_set = "map=maps/hall.toml";
+  state.folder = "/tmp/consoles";
+  state.ready = true;
+  state.up_s = 61.4;
+  state.ages_s = {3.25, 0.5};
+  state.alarms = {"ALARM (caution) of head: dark"};
   ProcessReport robot;
   robot.name = "onboard-robot";
   robot.group = "onboard";

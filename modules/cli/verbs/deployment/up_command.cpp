@@ -122,15 +122,23 @@ class UpRun {
   /// Everything but the line and the mouse starts again: no message, lease or mission of before is left.
   bool BeginAnew(const std::string& scenario) {
     try {
-      auto plan = PlanOf(InScenario(deployment_, place_.config_folder, scenario), place_);
+      const Deployment in_scenario = InScenario(deployment_, place_.config_folder, scenario);
+      auto plan = PlanOf(in_scenario, place_);
       std::erase_if(plan, [](const ProcessSpec& spec) { return spec.group == "line" || !spec.notifies; });
       supervisor_.Renew(std::move(plan), LearnedFiles(place_));
+      planner_set_ = PlannerSetOf(in_scenario);
     } catch (const ConfigError& error) {
       Say(error.what());
       return false;
     }
     Say("the world begins anew: " + scenario);
     return true;
+  }
+  static std::string PlannerSetOf(const Deployment& deployment) {
+    const auto& all = deployment.processes;
+    const auto planner =
+        std::find_if(all.begin(), all.end(), [](const ScenarioProcess& p) { return p.module == "planner"; });
+    return planner == all.end() ? "" : planner->set;
   }
   /// Waits for something to do, at most 20 ms.
   bool Signalled() {
@@ -144,8 +152,8 @@ class UpRun {
     std::cout << fmt::format("{:6.1f} s  {}", t_s, text) << std::endl;
   }
   void Write(Time now) {
-    UpState state{options_.deployment,   place_.run_folder,    supervisor_.AllReady(),
-                  Seconds(now - start_), supervisor_.Report(), {},
+    UpState state{options_.deployment,    place_.config_folder,  planner_set_,         place_.run_folder,
+                  supervisor_.AllReady(), Seconds(now - start_), supervisor_.Report(), {},
                   owner_.alarms()};
     for (const ProcessReport& p : state.processes)
       state.ages_s.push_back(p.since == Time{} ? state.up_s : Seconds(now - p.since));
@@ -167,6 +175,7 @@ class UpRun {
   Deployment deployment_;
   Supervisor supervisor_;
   SupervisorControl control_;
+  std::string planner_set_ = PlannerSetOf(InFirstScenario());
   bool state_written_ = true;  ///< up.json holds the newest state
 };
 

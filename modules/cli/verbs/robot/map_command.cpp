@@ -12,6 +12,7 @@
 #include "bus/process_config.hpp"
 #include "cli/options/folder_options.hpp"
 #include "cli/options/verb_setup.hpp"
+#include "cli/supervise/live_deployment.hpp"
 #include "cli/supervise/up_state.hpp"
 #include "cli/terminal/bus_session.hpp"
 #include "cli/terminal/map_text.hpp"
@@ -36,7 +37,7 @@ constexpr int kNothing = 1;
 constexpr unsigned kMode = 0644;
 
 struct MapOptions {
-  std::string deployment = "sim", file, svg, log_root;
+  std::string deployment, file, svg, log_root;
   bool json = false;
 };
 
@@ -68,8 +69,9 @@ std::string FileOf(const MapOptions& options, const fs::path& folder, const plan
 }
 
 Maps MapsOf(const MapOptions& options) {
-  const fs::path folder = FolderOfDeployment(options.deployment);
-  const auto config = bus::LoadAppConfig<planner::PlannerConfig>({(folder / "planner.toml").string(), {}});
+  const ConfigSource planner = PlannerInUse(options.deployment, LogRoot(options.log_root));
+  const fs::path folder = planner.Folder();
+  const auto config = bus::LoadAppConfig<planner::PlannerConfig>(planner);
   Maps maps{LoadConfig<GroundPlan>((folder / config.map).lexically_normal().string()),
             FileOf(options, folder, config),
             {},
@@ -238,7 +240,7 @@ void AddMapCommand(CLI::App& cli, int& exit_code) {
               "The plan and what was learned of the building (exit code 1: nothing); `reset` forgets it.");
   map->footer("Example: priamos map --svg building.svg");
   map->require_subcommand(0, 1);
-  AddDeploymentOption(*map, options->deployment);
+  AddLiveDeploymentOption(*map, options->deployment);
   map->add_option("--file", options->file, "a learned map instead of the deployment's");
   map->add_option("--svg", options->svg, "draw it into this file as well");
   AddLogsOption(*map, options->log_root, "the deployment that is up");
@@ -252,7 +254,7 @@ void AddMapCommand(CLI::App& cli, int& exit_code) {
                           "code 1: nothing was learned).");
   as_plan->footer("Example: priamos map export learned-plan.toml");
   as_plan->add_option("into", export_options->into, "the file to write")->required();
-  AddDeploymentOption(*as_plan, export_options->map.deployment);
+  AddLiveDeploymentOption(*as_plan, export_options->map.deployment);
   as_plan->add_option("--file", export_options->map.file, "a learned map instead of the deployment's");
   AddLogsOption(*as_plan, export_options->map.log_root, "the deployment that is up");
   CompleteVerb(*as_plan, export_options, Export, exit_code);

@@ -21,8 +21,7 @@ namespace {
 int PassDoor(const MissionOptions& options) {
   mission_command_t command{};
   command.mission = mission_command_t::PASS_DOOR;
-  command.landmark_id =
-      static_cast<std::int16_t>(DoorOfDeployment(FolderOfDeployment(options.deployment), options.door));
+  command.landmark_id = static_cast<std::int16_t>(DoorOfPlanner(PlannerOf(options), options.door));
   // As the planner calls it; of a number only the planner knows the name.
   const bool named = options.door.find_first_not_of("0123456789") != std::string::npos;
   if (named) command.title = DoorTitle(options.door).substr(0, 60);
@@ -122,7 +121,7 @@ void AddDoorVerb(CLI::App& mission, int& exit_code) {
   verb->footer("Example: priamos mission door laboratory --wait");
   verb->add_option("door", options->door, "its name in the map, or its number")->required();
   verb->add_flag("--wait", options->wait, "until the mission is over");
-  AddDeploymentOption(*verb, options->deployment);
+  AddPlannerOptions(*verb, *options);
   CompleteMission(*verb, options, PassDoor, exit_code);
 }
 

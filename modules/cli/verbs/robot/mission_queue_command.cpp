@@ -14,7 +14,7 @@ namespace priamos::cli {
 namespace {
 
 int RunFile(const MissionOptions& options) {
-  return GiveOrder(options, OrderOfFile(options.file, FolderOfDeployment(options.deployment)), "run");
+  return GiveOrder(options, OrderOfFile(options.file, PlannerOf(options)), "run");
 }
 
 int Patrol(const MissionOptions& options) {
@@ -34,7 +34,7 @@ int Patrol(const MissionOptions& options) {
     step.place = SectionPlace("", fmt::format("place {}: ", i + 1), {});
     patrol.steps.push_back(step);
   }
-  return GiveOrder(options, OrderOf(patrol, FolderOfDeployment(options.deployment)), "patrol");
+  return GiveOrder(options, OrderOf(patrol, PlannerOf(options)), "patrol");
 }
 
 int Intervene(const MissionOptions& options, std::int8_t mission, const char* verb) {
@@ -115,7 +115,7 @@ void AddRunVerb(CLI::App& mission, int& exit_code) {
   verb->footer("Example: priamos mission run config/sim/missions/round.toml --wait");
   verb->add_option("file", options->file, "TOML: [[step]] with do = goto, door, wait or repeat")->required();
   verb->add_flag("--wait", options->wait, "until they are over");
-  AddDeploymentOption(*verb, options->deployment);
+  AddPlannerOptions(*verb, *options);
   CompleteMission(*verb, options, RunFile, exit_code);
 }
 
@@ -130,7 +130,7 @@ void AddPatrolVerb(CLI::App& mission, int& exit_code) {
       ->required()
       ->check(CLI::Range(-100.0, 100.0));
   verb->add_flag("--wait", options->wait, "until it is over");
-  AddDeploymentOption(*verb, options->deployment);
+  AddPlannerOptions(*verb, *options);
   CompleteMission(*verb, options, Patrol, exit_code);
 }
 

@@ -5,7 +5,9 @@
 #include <iostream>
 #include <random>
 
+#include "cli/options/folder_options.hpp"
 #include "cli/options/verb_setup.hpp"
+#include "cli/supervise/live_deployment.hpp"
 #include "lcmtypes/channels.hpp"
 
 namespace priamos::cli {
@@ -73,6 +75,15 @@ int GiveOrder(const MissionOptions& options, const mission_command_t& command, c
   session.Watch(
       Time::max(), [&] { return order.outcome() != OrderOutcome::kOpen; }, step);
   return Conclude(options, order, verb);
+}
+
+ConfigSource PlannerOf(const MissionOptions& options) {
+  return PlannerInUse(options.deployment, LogRoot(options.log_root));
+}
+
+void AddPlannerOptions(CLI::App& verb, MissionOptions& options) {
+  AddLiveDeploymentOption(verb, options.deployment);
+  AddLogsOption(verb, options.log_root, "of the deployment that is up");
 }
 
 void CompleteMission(CLI::App& verb, const std::shared_ptr<MissionOptions>& options,

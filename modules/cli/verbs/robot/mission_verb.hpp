@@ -11,6 +11,7 @@
 #include "cli/scenario/mission_order.hpp"
 #include "cli/terminal/bus_session.hpp"
 #include "cli/terminal/json_line.hpp"
+#include "common/config.hpp"
 #include "priamos/mission_command_t.hpp"
 #include "priamos/mission_status_t.hpp"
 
@@ -28,13 +29,18 @@ struct MissionOptions {
   double distance_m = 0;       ///< along a corridor; 0: to its end
   std::vector<double> places;  ///< x and y in turn
   int order = 0;
-  std::string deployment = "sim";
+  std::string deployment, log_root;  ///< of the planner; empty: as PlannerInUse has it, and LogRoot
   bool wait = false, json = false;
 };
 
 /// Gives the order and follows it as long as it is open: words for a person, with --json one line per step
 /// that has ended and one for the order. Returns the exit code.
 int GiveOrder(const MissionOptions& options, const mission_command_t& command, const char* verb);
+
+/// The configuration of the planner whose map tells the places and doors of an order.
+ConfigSource PlannerOf(const MissionOptions& options);
+/// The options that it depends on.
+void AddPlannerOptions(CLI::App& verb, MissionOptions& options);
 
 /// The options that every verb of a mission has.
 void CompleteMission(CLI::App& verb, const std::shared_ptr<MissionOptions>& options,

@@ -1,0 +1,26 @@
+#include "cli/supervise/live_deployment.hpp"
+
+#include <filesystem>
+
+#include "cli/supervise/up_state.hpp"
+#include "common/data_folders.hpp"
+
+namespace priamos::cli {
+namespace {
+
+ConfigSource PlannerIn(const std::string& config_folder) {
+  return {(std::filesystem::path(config_folder) / "planner.toml").string(), {}};
+}
+
+}  // namespace
+
+ConfigSource PlannerInUse(const std::string& named, const std::string& log_root) {
+  if (!named.empty()) return PlannerIn(FindDeployment(named, ThisProgram()));
+  const auto up = UpLock::Holder(log_root) ? ReadUpState(log_root) : std::nullopt;
+  if (!up) return PlannerIn(FindDeployment("sim", ThisProgram()));
+  ConfigSource source = PlannerIn(up->config_folder);
+  if (!up->planner_set.empty()) source.overrides.push_back(up->planner_set);
+  return source;
+}
+
+}  // namespace priamos::cli
