@@ -12,6 +12,7 @@
 #include "robot/core/safety/touch_watch.hpp"
 #include "robot/core/sonar/echo_memory.hpp"
 #include "robot/core/sonar/floor_memory.hpp"
+#include "robot/core/sonar/hanging_memory.hpp"
 #include "robot/core/sonar/mover_watch.hpp"
 
 namespace priamos::robot {
@@ -27,6 +28,7 @@ struct DriveConfig {
   AccelerationLimits braking{.acceleration_m_s2 = 1.0, .turn_acceleration_rad_s2 = 2.0};
   EchoMemoryConfig echoes;
   FloorMemoryConfig floor;
+  HangingConfig hanging;
   MoverConfig movers;
   MeetingStopConfig meeting;
   CollisionStopConfig collision;

@@ -25,7 +25,7 @@ SceneObject Object(ObjectKind kind, const Pose2& base_from_front, double width_m
 
 /// A look that shows these objects, and edges behind them.
 struct Shows : Scene {
-  Shows(std::initializer_list<SceneObject> seen) : Scene{test::HeadCamera(0, 1), seen, {}} {}
+  Shows(std::initializer_list<SceneObject> seen) : Scene{test::HeadCamera(0, 1), seen, {}, {}} {}
   Shows& Behind(const Eigen::Vector3d& at) {
     edges.push_back({at, 1e-4 * Eigen::Matrix2d::Identity(), 200});
     return *this;
