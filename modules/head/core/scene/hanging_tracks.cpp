@@ -49,6 +49,7 @@ void JoinTop(const SceneTrack& seen, const PlaceOptions& options, SceneTrack& tr
     track.object.top_m += share * (seen.object.top_m - track.object.top_m);
     track.object.bottom_m += share * (seen.object.bottom_m - track.object.bottom_m);
   }
+  track.place.map_from_base = seen.place.map_from_base;
 }
 
 }  // namespace priamos::head
