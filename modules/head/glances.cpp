@@ -88,9 +88,11 @@ bool Glances::Follows(bool corridor) const {
          std::hypot(pose_->twist.vx, pose_->twist.vy) > kDrives_m_s;
 }
 
-/// Where the base drives to, from its own front.
+/// Where the base drives to, from its own front; in turn with half of that, because a base that drives
+/// askew meets things with its corner.
 double Glances::Bearing() const {
-  return pose_ ? std::atan2(pose_->twist.vy, pose_->twist.vx) : 0;
+  const double bearing = pose_ ? std::atan2(pose_->twist.vy, pose_->twist.vx) : 0;
+  return halfway_ ? bearing / 2 : bearing;
 }
 
 std::optional<HeadSetting> Glances::Next(bool needed, bool glancing, Time now) {
@@ -98,6 +100,7 @@ std::optional<HeadSetting> Glances::Next(bool needed, bool glancing, Time now) {
   const bool ahead = ahead_.Step(needed, glancing || pan, Follows(false), now);
   if (!pan && !ahead) return std::nullopt;
   to_the_side_ = pan.has_value();
+  halfway_ = !halfway_;
   return pan ? aside_.SettingAt(*pan, base_) : ahead_.SettingFrom(base_, Bearing());
 }
 

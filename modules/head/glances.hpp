@@ -58,6 +58,7 @@ class Glances {
   SideWatch aside_;
   AheadWatch ahead_;
   bool to_the_side_ = false;  ///< the glance under way is one of a corridor
+  bool halfway_ = false;      ///< this one ahead is between the front and where the base drives
   GlanceEvaluator evaluator_;
   DoorTracks doors_;
   SceneTracks objects_;
