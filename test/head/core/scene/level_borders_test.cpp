@@ -37,17 +37,17 @@ TEST(LevelBorders, ABorderThatIsAskewIsKnownByStereo) {
 
 TEST(LevelBorders, OneAlongTheBaselineIsKnownByTheThirdCamera) {
   DrawnScene scene;
-  scene.Level({2.2, 0.4}, {2.2, -0.4}, 0.7);
-  EXPECT_NEAR(FrontOf(BordersOf(scene)), 2.2, 0.03);
+  scene.Level({3, 0.4}, {3, -0.4}, 0.8);
+  EXPECT_NEAR(FrontOf(BordersOf(scene)), 3, 0.03);
 }
 
 TEST(LevelBorders, OrByTheBorderAtWhichItEnds) {
   DrawnScene scene;
-  scene.Level({2.2, 0.4}, {2.2, -0.4}, 0.7);
-  scene.Level({2.2, 0.4}, {2.8, 0.4}, 0.7);
+  scene.Level({3, 0.4}, {3, -0.4}, 0.8);
+  scene.Level({3, 0.4}, {3.6, 0.4}, 0.8);
   const StereoViews views = scene.Views();
   const CameraView third = scene.Third();
-  EXPECT_NEAR(FrontOf(FindLevelBorders(views, third, scene.Matches(views), {})), 2.2, 0.02);
+  EXPECT_NEAR(FrontOf(FindLevelBorders(views, third, scene.Matches(views), {})), 3, 0.02);
 }
 
 TEST(LevelBorders, WhatIsBelowTheSonarsAboveTheRobotOrNotLevelIsNone) {
