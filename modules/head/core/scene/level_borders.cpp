@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "common/geometry.hpp"
 #include "head/core/camera/projection.hpp"
 
 namespace priamos::head {
