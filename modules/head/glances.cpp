@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "common/archive.hpp"
 
@@ -16,10 +17,11 @@ constexpr double kDrives_m_s = 0.05, kJump_m = 0.3;
 /// Less is the noise of a pose that goes on.
 constexpr double kCorrected_m = 0.01, kCorrected_rad = 0.004;
 
-/// The thing whose turn it is; nullptr: none.
+/// The thing whose turn it is, of `tellables`; nullptr: none.
 template <class Tracks>
-auto WhoseTurn(const Tracks& things, TurnTaking& turns, Time now) -> decltype(things.tracks().data()) {
-  const auto id = turns.Next(things.Tellables(now), now);
+auto WhoseTurn(const Tracks& things, TurnTaking& turns, Time now, std::span<const Tellable> tellables)
+    -> decltype(things.tracks().data()) {
+  const auto id = turns.Next(tellables, now);
   if (!id) return nullptr;
   return &*std::ranges::find_if(things.tracks(), [&](const auto& track) { return track.id == *id; });
 }
@@ -64,6 +66,7 @@ void Glances::Correct(const Correction& correction) {
     door_turns_.Forget();
     objects_.Forget();
     object_turns_.Forget();
+    urgent_turns_.Forget();
     corrected_.reset();
   } else if (jump_m > kCorrected_m || std::abs(moved.yaw) > kCorrected_rad) {
     doors_.Move(moved);
@@ -85,15 +88,23 @@ bool Glances::Follows(bool corridor) const {
          std::hypot(pose_->twist.vx, pose_->twist.vy) > kDrives_m_s;
 }
 
+/// Where the base drives to, from its own front; in turn with half of that, because a base that drives
+/// askew meets things with its corner.
+double Glances::Bearing() const {
+  const double bearing = pose_ ? std::atan2(pose_->twist.vy, pose_->twist.vx) : 0;
+  return halfway_ ? bearing / 2 : bearing;
+}
+
 std::optional<HeadSetting> Glances::Next(bool needed, bool glancing, Time now) {
   const auto pan = aside_.Step(needed, glancing, Follows(true), now);
   const bool ahead = ahead_.Step(needed, glancing || pan, Follows(false), now);
   if (!pan && !ahead) return std::nullopt;
   to_the_side_ = pan.has_value();
-  return pan ? aside_.SettingAt(*pan, base_) : ahead_.SettingFrom(base_);
+  halfway_ = !halfway_;
+  return pan ? aside_.SettingAt(*pan, base_) : ahead_.SettingFrom(base_, Bearing());
 }
 
-void Glances::Add(const std::array<std::optional<GreyImage>, 2>& pictures, const HeadSetting& setting,
+void Glances::Add(const std::array<std::optional<GreyImage>, 3>& pictures, const HeadSetting& setting,
                   const PoseSample& robot) {
   const Glance glance = evaluator_.Evaluate(pictures, setting, to_the_side_);
   doors_.Add(glance.doors, PlaceOf(robot), robot.time);
@@ -105,9 +116,12 @@ void Glances::Add(const Scene& scene, const PoseSample& robot) {
 }
 
 void Glances::Tell(Time now) {
-  if (const DoorTrack* door = WhoseTurn(doors_, door_turns_, now))
+  if (const DoorTrack* door = WhoseTurn(doors_, door_turns_, now, doors_.Tellables(now)))
     door_found_.Publish(ToMessage(*door, doors_.StateOf(*door)));
-  if (const SceneTrack* object = WhoseTurn(objects_, object_turns_, now))
+  // The base brakes before what hangs by itself: it is to know at once, whatever the radio carries.
+  if (const SceneTrack* object = WhoseTurn(objects_, urgent_turns_, now, objects_.Urgent(now)))
+    scene_object_.Publish(ToMessage(*object, objects_.HasGone(*object)));
+  if (const SceneTrack* object = WhoseTurn(objects_, object_turns_, now, objects_.Tellables(now)))
     scene_object_.Publish(ToMessage(*object, objects_.HasGone(*object)));
 }
 

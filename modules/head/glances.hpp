@@ -28,13 +28,15 @@ class Glances {
   void OnPose(const PoseSample& pose);
   /// The setting of a glance to begin now, if any; see GlanceRhythm::Step.
   std::optional<HeadSetting> Next(bool needed, bool glancing, Time now);
+  /// Whether that is one aside, which needs the stereo pair only.
+  bool is_aside() const { return to_the_side_; }
   /// No glance for a while: a look is under way that others will follow.
   void Defer(Time now) {
     aside_.Defer(now);
     ahead_.Defer(now);
   }
-  /// Takes the pictures of a glance, left and right, exposed at `robot` with the motors at `setting`.
-  void Add(const std::array<std::optional<GreyImage>, 2>& pictures, const HeadSetting& setting,
+  /// Takes the pictures of a glance, left, right and third, exposed at `robot` with the motors at `setting`.
+  void Add(const std::array<std::optional<GreyImage>, 3>& pictures, const HeadSetting& setting,
            const PoseSample& robot);
   /// Takes what a look showed beside its landmark.
   void Add(const Scene& scene, const PoseSample& robot);
@@ -50,16 +52,19 @@ class Glances {
   void Correct(const Correction& correction);
   Pose2 PlaceOf(const PoseSample& robot) const;
   bool Follows(bool corridor) const;
+  double Bearing() const;
 
   HeadSetting base_;
   SideWatch aside_;
   AheadWatch ahead_;
   bool to_the_side_ = false;  ///< the glance under way is one of a corridor
+  bool halfway_ = false;      ///< this one ahead is between the front and where the base drives
   GlanceEvaluator evaluator_;
   DoorTracks doors_;
   SceneTracks objects_;
   TurnTaking door_turns_, object_turns_;
-  std::optional<PoseSample> pose_;  ///< newest
+  TurnTaking urgent_turns_{{.every_s = 0.4, .news_only = true}};  ///< of what hangs: for the robot's own bus
+  std::optional<PoseSample> pose_;                                ///< newest
   std::optional<Correction> corrected_;
   bus::Latest<path_t> path_;
   bus::Publisher<door_found_t> door_found_;

@@ -231,7 +231,7 @@ void HeadApp::GlanceAround(Time now) {
   glancing_ = true;
   looked_at_.reset();
   positioner_.MoveTo(*setting, now);
-  look_.Begin(now, LookSequence::kPair);
+  glances_.is_aside() ? look_.Begin(now, LookSequence::kPair) : look_.Begin(now);
 }
 
 void HeadApp::EndGlance() {
@@ -243,7 +243,9 @@ void HeadApp::EndGlance() {
 void HeadApp::UseGlance() {
   const Frames frames = look_.frames();
   if (const auto robot = poses_.At(frames[kLeft].exposure))
-    glances_.Add({Picture(frames[kLeft]), Picture(frames[kRight])}, report_->setting, *robot);
+    glances_.Add({Picture(frames[kLeft]), Picture(frames[kRight]),
+                  frames.size() > kThird ? Picture(frames[kThird]) : std::nullopt},
+                 report_->setting, *robot);
   EndGlance();
 }
 

@@ -53,6 +53,7 @@ RobotApp::RobotApp(const RobotConfig& config, bus::Context& context)
       bumper_(context.node().SubscribeAll(channels::kBumper)),
       sonars_(context.node().Subscribe(channels::kSonarRanges)),
       floor_lines_(context.node().SubscribeAll(channels::kObstacleLine)),
+      things_(context.node().SubscribeAll(channels::kSceneObject)),
       paths_(context.node().SubscribeAll(channels::kPath)),
       plan_walls_(context.node().SubscribeAll(channels::kPlanWalls)),
       fixes_(context.node().SubscribeAll(channels::kLandmarkFix)),
@@ -96,6 +97,7 @@ void RobotApp::Tick(Time now) {
   TakeTouchSensors(now);
   TakeSonars(now);
   TakeFloorLines(now);
+  TakeSeenThings();
   TakeFixes(now);
   AnswerFixes(now);
   TakePoseResets(now);
@@ -170,6 +172,19 @@ void RobotApp::TakeFloorLines(Time now) {
         channels::kObstacleLine.name,
         fmt::format("obstacle line refused, the {}. one: {}", floor_lines_refused_,
                     line ? "too old, of a time to come, or repeated" : "numbers out of range"));
+  }
+}
+
+/// The head tells places of the map as the base knows it, so from here on they move with the odometry.
+void RobotApp::TakeSeenThings() {
+  for (const scene_object_t& message : things_.Drain()) {
+    const auto thing = FromMessage(message);
+    const auto estimate = localiser_.estimate();
+    if (!thing)
+      context_.LogRefusal(channels::kSceneObject.name,
+                          fmt::format("thing {} of the head refused: numbers out of range", message.id));
+    if (thing && estimate)
+      drive_.AddSeenThing(*thing, localiser_.odometry().pose() * estimate->pose.Inverse());
   }
 }
 

@@ -42,6 +42,7 @@ class RobotApp {
   void TakeTouchSensors(Time now);
   void TakeSonars(Time now);
   void TakeFloorLines(Time now);
+  void TakeSeenThings();
   void TakeFixes(Time now);
   void TakePoseResets(Time now);
   int SetPose(const pose_reset_t& order, Time now, Pose2& change);
@@ -81,6 +82,7 @@ class RobotApp {
   bus::Inbox<bumper_t> bumper_;
   bus::Latest<sonar_ranges_t> sonars_;
   bus::Inbox<obstacle_line_t> floor_lines_;
+  bus::Inbox<scene_object_t> things_;
   bus::Inbox<path_t> paths_;
   bus::Inbox<plan_walls_t> plan_walls_;
   bus::Inbox<landmark_fix_t> fixes_;

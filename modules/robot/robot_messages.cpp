@@ -119,6 +119,30 @@ std::optional<FloorLine> FromMessage(const obstacle_line_t& message) {
   return line;
 }
 
+std::optional<SeenThing> FromMessage(const scene_object_t& m) {
+  constexpr double kMap_m = 100, kYaw = 3.15, kSize_m = 5.1, kHeight_m = 2.5, kSigma_m = 0.63;
+  const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
+  const bool good = within(m.kind, scene_object_t::EDGE, scene_object_t::BOX) &&
+                    within(m.x_m, -kMap_m, kMap_m) && within(m.y_m, -kMap_m, kMap_m) &&
+                    within(m.yaw_rad, -kYaw, kYaw) && within(m.width_m, 0, kSize_m) &&
+                    within(m.depth_m, 0, kSize_m) && within(m.bottom_m, 0, kHeight_m) &&
+                    within(m.top_m, m.bottom_m, kHeight_m) && within(m.sigma_along_m, 0, kSigma_m) &&
+                    within(m.sigma_across_m, 0, kSigma_m) && m.looks >= 0;
+  if (!good) return std::nullopt;
+  SeenThing thing;
+  thing.id = m.id;
+  thing.seen = FromUtime(m.utime_seen);
+  thing.is_edge = m.kind == scene_object_t::EDGE;
+  thing.has_gone = m.looks == 0;
+  thing.map_from_front = {m.x_m, m.y_m, m.yaw_rad};
+  thing.width_m = m.width_m;
+  thing.depth_m = m.kind == scene_object_t::BOX ? m.depth_m : 0;
+  thing.bottom_m = m.bottom_m;
+  thing.top_m = m.top_m;
+  thing.sigma_m = std::max(m.sigma_along_m, m.sigma_across_m);
+  return thing;
+}
+
 DriveCommand FromMessage(const drive_command_t& message) {
   DriveCommand command;
   command.time = FromUtime(message.utime);

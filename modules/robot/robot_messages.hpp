@@ -25,6 +25,8 @@ std::optional<LandmarkFix> FromMessage(const landmark_fix_t& message);
 /// Obstacles seen by the line laser; nullopt if any number is not finite or outside its range. What is only
 /// missing is no obstacle.
 std::optional<FloorLine> FromMessage(const obstacle_line_t& message);
+/// A thing that the head saw; nullopt if any number is not finite or outside its range.
+std::optional<SeenThing> FromMessage(const scene_object_t& message);
 DriveCommand FromMessage(const drive_command_t& message);
 /// Request for the lease: who asks, and for what.
 struct LeaseRequest {

@@ -152,6 +152,55 @@ TEST(FixMessages, NumbersThatMakeNoSenseBecomeAFixThatIsRefused) {
   }
 }
 
+scene_object_t SomeThing() {
+  scene_object_t message{};
+  message.utime_seen = 1'000'000;
+  message.id = 7;
+  message.kind = scene_object_t::BOX;
+  message.x_m = 3;
+  message.y_m = -1;
+  message.yaw_rad = 0.5;
+  message.width_m = 1.2;
+  message.depth_m = 0.6;
+  message.bottom_m = 0.66;
+  message.top_m = 0.72;
+  message.sigma_along_m = 0.03;
+  message.sigma_across_m = 0.01;
+  message.looks = 2;
+  return message;
+}
+
+TEST(SceneObjectMessage, AThingKeepsItsNumbers) {
+  const auto dut = FromMessage(SomeThing());
+  ASSERT_TRUE(dut);
+  EXPECT_EQ(dut->id, 7);
+  EXPECT_EQ(ToUtime(dut->seen), 1'000'000);
+  EXPECT_EQ(dut->map_from_front.x, 3);
+  EXPECT_EQ(dut->width_m, 1.2);
+  EXPECT_EQ(dut->depth_m, 0.6);
+  EXPECT_EQ(dut->top_m, 0.72);
+  EXPECT_EQ(dut->sigma_m, 0.03);
+  EXPECT_FALSE(dut->has_gone || dut->is_edge);
+  scene_object_t gone = SomeThing();
+  gone.looks = 0;
+  EXPECT_TRUE(FromMessage(gone)->has_gone);
+}
+
+TEST(SceneObjectMessage, NumbersOutOfRangeAreRefused) {
+  const auto refused = [](auto change) {
+    scene_object_t message = SomeThing();
+    change(message);
+    return !FromMessage(message);
+  };
+  EXPECT_TRUE(refused([](scene_object_t& m) { m.kind = 3; }));
+  EXPECT_TRUE(refused([](scene_object_t& m) { m.x_m = kNaN; }));
+  EXPECT_TRUE(refused([](scene_object_t& m) { m.width_m = 6; }));
+  EXPECT_TRUE(refused([](scene_object_t& m) { m.depth_m = kNaN; }));
+  EXPECT_TRUE(refused([](scene_object_t& m) { m.bottom_m = 0.8; })) << "it would end below where it begins";
+  EXPECT_TRUE(refused([](scene_object_t& m) { m.sigma_along_m = -1; }));
+  EXPECT_TRUE(refused([](scene_object_t& m) { m.looks = -1; }));
+}
+
 obstacle_line_t SomeLine() {
   obstacle_line_t message{};
   message.utime_exposure = 1'000'000;

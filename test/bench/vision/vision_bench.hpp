@@ -77,6 +77,9 @@ void BenchCorridor(const VisionOptions& options, Figures& figures);
 /// What stands in made-up rooms beside walls and doors: boxes found, phantoms, errors of their fronts.
 void BenchScene(const VisionOptions& options, Figures& figures);
 
+/// Tables that a base comes to, squarely and obliquely, and what hangs nowhere.
+void BenchTables(const VisionOptions& options, Figures& figures);
+
 /// Obstacles by the line laser: precision, false alarms, how low they may be.
 void BenchLaser(const VisionOptions& options, Figures& figures);
 

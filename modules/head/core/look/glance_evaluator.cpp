@@ -1,5 +1,8 @@
 #include "head/core/look/glance_evaluator.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 #include "head/core/look/usable_image.hpp"
 
 namespace priamos::head {
@@ -17,7 +20,16 @@ std::vector<DoorSighting> GlanceEvaluator::FindDoors(const StereoViews& views,
   return sightings;
 }
 
-Glance GlanceEvaluator::Evaluate(const std::array<std::optional<GreyImage>, 2>& images,
+/// The third camera, where it is calibrated and its picture is of use; extracts its edges.
+std::optional<CameraModel> GlanceEvaluator::ThirdCamera(const std::optional<GreyImage>& image,
+                                                        const HeadSetting& setting) {
+  const auto third = head_.CameraAt(setting, kThird);
+  if (!third || !IsUsable(image)) return std::nullopt;
+  edge_operator_.Extract(Wrap(*image), edges_[kThird]);
+  return *third;
+}
+
+Glance GlanceEvaluator::Evaluate(const std::array<std::optional<GreyImage>, 3>& images,
                                  const HeadSetting& setting, bool with_doors) {
   const auto left = head_.CameraAt(setting, kLeft), right = head_.CameraAt(setting, kRight);
   if (!left || !right || !IsUsable(images[0]) || !IsUsable(images[1])) return {};
@@ -25,8 +37,16 @@ Glance GlanceEvaluator::Evaluate(const std::array<std::optional<GreyImage>, 2>& 
   const StereoViews views{MakeView(*left, edges_[0]), MakeView(*right, edges_[1])};
   Glance glance;
   if (with_doors) glance.doors = FindDoors(views, {{&*images[0], &*images[1]}, {&*left, &*right}});
-  glance.scene =
-      ReconstructScene(views, MatchBinocular(views[0], views[1], options_.scene.stereo), options_.scene);
+  std::vector<StereoMatch> matches = MatchBinocular(views[0], views[1], options_.scene.stereo);
+  const auto third = ThirdCamera(images[kThird], setting);
+  if (!third) {
+    glance.scene = ReconstructScene(views, matches, options_.scene);
+    return glance;
+  }
+  const CameraView above = MakeView(*third, edges_[kThird]);
+  std::ranges::move(MatchTrinocular(views[0], views[1], above, options_.scene.stereo),
+                    std::back_inserter(matches));
+  glance.scene = ReconstructScene(views, matches, options_.scene, &above);
   return glance;
 }
 

@@ -35,9 +35,9 @@ class GlanceEvaluator {
   GlanceEvaluator(const HeadModel& head, const GlanceOptions& options)
       : head_(head), options_(options), edge_operator_(options.edges) {}
 
-  /// What a pair taken with the motors at `setting` shows; nothing without both pictures and a calibration
-  /// there. Doors are looked for `with_doors`.
-  Glance Evaluate(const std::array<std::optional<GreyImage>, 2>& images, const HeadSetting& setting,
+  /// What pictures taken with the motors at `setting` show, left, right and third; nothing without the first
+  /// two and a calibration there. Doors are looked for `with_doors`.
+  Glance Evaluate(const std::array<std::optional<GreyImage>, 3>& images, const HeadSetting& setting,
                   bool with_doors);
 
  private:
@@ -46,7 +46,8 @@ class GlanceEvaluator {
   HeadModel head_;
   GlanceOptions options_;
   EdgeOperator edge_operator_;
-  std::array<EdgeImage, 2> edges_;
+  std::optional<CameraModel> ThirdCamera(const std::optional<GreyImage>& image, const HeadSetting& setting);
+  std::array<EdgeImage, 3> edges_;
 };
 
 }  // namespace priamos::head

@@ -86,7 +86,7 @@ LookResult LookEvaluator::Evaluate(const LookInput& input) {
   if (third)
     std::ranges::move(MatchTrinocular(views[0], views[1], all[kThird], scene_options_.stereo),
                       std::back_inserter(matches));
-  result.scene = ReconstructScene(views, matches, scene_options_);
+  result.scene = ReconstructScene(views, matches, scene_options_, third ? &all[kThird] : nullptr);
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -148,12 +149,17 @@ class Grouping {
 }  // namespace
 
 Scene ReconstructScene(const StereoViews& views, std::span<const StereoMatch> matches,
-                       const SceneOptions& options) {
-  Scene scene{*views[0].camera, {}, SceneEdges(views[0], matches)};
+                       const SceneOptions& options, const CameraView* third) {
+  Scene scene{*views[0].camera, {}, SceneEdges(views[0], matches), {}};
+  for (const ViewLine& line : views[0].lines) scene.lines.push_back({line.p, line.q});
   std::vector<UprightEdge> uprights = FindUprights(matches, options.uprights);
   AddUprightsAtLevelEnds(views, options.uprights, options.level_ends, uprights);
   const std::vector<UprightFace> faces = FindFaces(views, scene.edges, uprights, options.faces);
   scene.objects = Grouping(views, uprights, faces, options).Run();
+  if (third == nullptr) return scene;
+  const std::vector<LevelBorder> borders = FindLevelBorders(views, *third, matches, options.borders);
+  std::ranges::move(GroupBorders(borders, scene.objects, OpticalCentre(scene.left), options.tops),
+                    std::back_inserter(scene.objects));
   return scene;
 }
 

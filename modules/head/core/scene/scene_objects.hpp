@@ -4,38 +4,24 @@
 #include <span>
 #include <vector>
 
-#include "common/geometry.hpp"
 #include "head/core/scene/box_depth.hpp"
+#include "head/core/scene/level_borders.hpp"
 #include "head/core/scene/level_ends.hpp"
+#include "head/core/scene/missing_border.hpp"
+#include "head/core/scene/scene_object.hpp"
+#include "head/core/scene/table_tops.hpp"
 #include "head/core/scene/upright_edges.hpp"
 #include "head/core/scene/upright_faces.hpp"
 #include "head/core/stereo/edge_stereo.hpp"
 
 namespace priamos::head {
 
-/// What stands there, as far as its edges tell.
-enum class ObjectKind {
-  kEdge,  ///< an upright edge that belongs to no face
-  kFace,  ///< an upright rectangle
-  kBox,   ///< two faces that meet at a right angle, as a box shows them
-};
-
-/// Something that stands on the floor, as one look reconstructed it.
-struct SceneObject {
-  ObjectKind kind = ObjectKind::kFace;
-  Pose2 base_from_front;  ///< middle of its front on the floor; x square to it, away from the head
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of that middle, base frame [m^2]
-  double sigma_yaw_rad = 0;
-  double width_m = 0;  ///< of the front; an edge: 0
-  double depth_m = 0;  ///< of a box, behind its front; else 0: not known
-  double bottom_m = 0, top_m = 0;
-};
-
 /// What one look showed of the scene, base frame.
 struct Scene {
   CameraModel left;  ///< which saw it
   std::vector<SceneObject> objects;
   std::vector<SceneEdge> edges;  ///< all that have a place in space
+  std::vector<ImageLine> lines;  ///< all edges of its image, whether matched or not
 };
 
 /// How the edges of a scene are matched and grouped.
@@ -45,6 +31,8 @@ struct SceneOptions {
   LevelEndOptions level_ends;
   FaceOptions faces;
   DepthOptions depth;
+  LevelBorderOptions borders;
+  TableTopOptions tops;
   double square_rad = 0.2;       ///< faces of a box are square to each other within this and 3 sigmas
   double corner_m = 0.04;        ///< ends of two faces that are nearer meet
   double same_top_m = 0.05;      ///< largest difference between the upper edges of a box's faces
@@ -55,8 +43,9 @@ struct SceneOptions {
 
 /// Puts together what stands before the head (the paper's reconstruction of the scene): edges of space from
 /// `matches` of both pictures, and beside them those of all three, then upright faces, then boxes. What
-/// nothing joins to a face remains an edge.
+/// nothing joins to a face remains an edge. Level edges in the robot's height that belong to nothing of this
+/// are borders of what hangs, where the picture of a `third` camera shows them too.
 Scene ReconstructScene(const StereoViews& views, std::span<const StereoMatch> matches,
-                       const SceneOptions& options);
+                       const SceneOptions& options, const CameraView* third = nullptr);
 
 }  // namespace priamos::head

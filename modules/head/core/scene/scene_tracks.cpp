@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "head/core/scene/face_sights.hpp"
+#include "head/core/scene/hanging_tracks.hpp"
 #include "head/core/tracks/track_list.hpp"
 
 namespace priamos::head {
@@ -69,16 +70,34 @@ std::vector<Tellable> SceneTracks::Tellables(Time now) const {
   for (const SceneTrack& track : tracks_) {
     if (!IsBelieved(track) || Seconds(now - track.seen) > options_.told_for_s) continue;
     objects.push_back({track.id, track.place.map_from_thing.translation(),
-                       HasGone(track) ? kGone : static_cast<int>(track.object.kind), IsEdge(track) ? 0 : 1});
+                       HasGone(track) ? kGone : static_cast<int>(track.object.kind),
+                       IsEdge(track)         ? 0
+                       : Hangs(track.object) ? 2
+                                             : 1});
   }
   return objects;
+}
+
+std::vector<Tellable> SceneTracks::Urgent(Time now) const {
+  std::vector<Tellable> all = Tellables(now);
+  std::erase_if(all, [&](const Tellable& thing) {
+    return !std::any_of(tracks_.begin(), tracks_.end(),
+                        [&](const SceneTrack& track) { return track.id == thing.id && Hangs(track.object); });
+  });
+  return all;
 }
 
 SceneTrack* SceneTracks::Find(const SceneTrack& seen) {
   SceneTrack* nearest = nullptr;
   double least_m = IsEdge(seen) ? options_.same_edge_m : options_.same_m;
   for (SceneTrack& track : tracks_) {
-    if (HasGone(track) || IsEdge(track) != IsEdge(seen) || Apart(track, seen) > least_m) continue;
+    if (HasGone(track) || IsEdge(track) != IsEdge(seen) || Hangs(track.object) != Hangs(seen.object))
+      continue;
+    if (Hangs(seen.object)) {
+      if (AreOneTop(track, seen)) return &track;
+      continue;
+    }
+    if (Apart(track, seen) > least_m) continue;
     const double turn = WrapAngle(track.place.map_from_thing.yaw - seen.place.map_from_thing.yaw);
     if (!IsEdge(seen) && std::abs(turn) > options_.same_yaw_rad) continue;
     least_m = Apart(track, seen);
@@ -88,8 +107,12 @@ SceneTrack* SceneTracks::Find(const SceneTrack& seen) {
 }
 
 void SceneTracks::Join(const SceneTrack& seen, SceneTrack& track) const {
-  const double share = Fuse(seen.place, options_.place, track.place);
-  JoinMeasures(seen.object, share, track.object);
+  if (Hangs(seen.object)) {
+    JoinTop(seen, options_.place, track);
+  } else {
+    const double share = Fuse(seen.place, options_.place, track.place);
+    JoinMeasures(seen.object, share, track.object);
+  }
   track.seen = seen.seen;
   track.through = 0;
   ++track.looks;
@@ -106,11 +129,19 @@ bool SceneTracks::IsPartOfFront(const SceneTrack& edge) const {
   });
 }
 
+bool SceneTracks::IsSeenThroughNow(const SceneTrack& track, const Scene& scene,
+                                   const Pose2& map_from_base) const {
+  const FacePlane front = FrontOf(track, map_from_base);
+  if (!Hangs(track.object)) return IsSeenThrough(front, scene.left, scene.edges, options_.behind_m);
+  return IsMissing({front.from.x(), front.from.y(), front.top_m}, {front.to.x(), front.to.y(), front.top_m},
+                   scene.left, scene.lines);
+}
+
 /// Counts for each front that was not seen now whether something behind it was.
 void SceneTracks::LookThrough(const Scene& scene, const Pose2& map_from_base, Time exposure) {
   for (SceneTrack& track : tracks_) {
     if (IsEdge(track) || HasGone(track) || track.seen == exposure) continue;
-    if (!IsSeenThrough(FrontOf(track, map_from_base), scene.left, scene.edges, options_.behind_m)) continue;
+    if (!IsSeenThroughNow(track, scene, map_from_base)) continue;
     if (++track.through == options_.gone_after) track.seen = exposure;
   }
   std::erase_if(tracks_, [&](const SceneTrack& track) {

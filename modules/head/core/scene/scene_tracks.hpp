@@ -4,21 +4,10 @@
 
 #include "common/time.hpp"
 #include "head/core/scene/scene_objects.hpp"
-#include "head/core/tracks/tracked_place.hpp"
+#include "head/core/scene/scene_track.hpp"
 #include "head/core/tracks/turn_taking.hpp"
 
 namespace priamos::head {
-
-/// Something that stands on the floor, as all looks that showed it put it together.
-struct SceneTrack {
-  int id = 0;
-  Time seen{};         ///< exposure of the newest of them
-  TrackedPlace place;  ///< middle of its front; x square to it, away from where it was seen
-  SceneObject object;  ///< kind, measures and sigma of its yaw; its place means nothing
-  int looks = 0;
-  int through = 0;            ///< looks since then that saw through where it stood
-  Pose2 map_from_first_base;  ///< from where it was seen first
-};
 
 /// What is the same object, and when one is believed.
 struct SceneTrackOptions {
@@ -53,6 +42,8 @@ class SceneTracks {
   bool HasGone(const SceneTrack& track) const { return track.through >= options_.gone_after; }
   /// Those that may be told now, for TurnTaking.
   std::vector<Tellable> Tellables(Time now) const;
+  /// Of them those that hang: no sonar hears them.
+  std::vector<Tellable> Urgent(Time now) const;
   /// All of them, in the order in which they were found.
   const std::vector<SceneTrack>& tracks() const { return tracks_; }
 
@@ -60,6 +51,7 @@ class SceneTracks {
   SceneTrack* Find(const SceneTrack& seen);
   void Join(const SceneTrack& seen, SceneTrack& track) const;
   bool IsPartOfFront(const SceneTrack& edge) const;
+  bool IsSeenThroughNow(const SceneTrack& track, const Scene& scene, const Pose2& map_from_base) const;
   void LookThrough(const Scene& scene, const Pose2& map_from_base, Time exposure);
 
   SceneTrackOptions options_;

@@ -17,6 +17,7 @@ std::optional<int> TurnTaking::Next(std::span<const Tellable> things, Time now) 
   for (const Tellable& thing : things) {
     const auto told = told_.find(thing.id);
     const bool is_old = !IsNews(thing);
+    if (is_old && options_.news_only) continue;
     const std::tuple here{is_old, is_old ? 0 : -thing.weight, told == told_.end() ? Time{} : told->second.at};
     if (next && rank <= here) continue;
     next = &thing;

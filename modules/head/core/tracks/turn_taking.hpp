@@ -19,8 +19,9 @@ struct Tellable {
 
 /// How often things are told.
 struct TurnOptions {
-  double every_s = 5;     ///< between two messages: what the radio carries
-  double moved_m = 0.03;  ///< a thing that is farther from where it was told is news
+  double every_s = 5;      ///< between two messages: what the radio carries
+  double moved_m = 0.03;   ///< a thing that is farther from where it was told is news
+  bool news_only = false;  ///< what is known is not told again
 };
 
 /// Which thing is told next: one that is new or has changed, else the one that was told longest ago, so that

@@ -22,6 +22,7 @@ void DriveConfig::Describe(Archive& a) {
   a.Section("braking", braking, "limits while a hold brakes the base");
   a.Section("echoes", echoes, "which sonar echoes are believed");
   a.Section("floor", floor, "what the laser's line showed of the floor");
+  a.Section("hanging", hanging, "which things that the head sees the base keeps off by itself");
   a.Section("movers", movers, "what comes towards the base while a path is driven");
   a.Section("approach", approach, "what closes in on the base from any side");
   a.Section("meeting", meeting, "standing for who is about to walk into the base");

@@ -13,6 +13,7 @@
 #include "robot/core/sonar/approach_watch.hpp"
 #include "robot/core/sonar/echo_memory.hpp"
 #include "robot/core/sonar/floor_memory.hpp"
+#include "robot/core/sonar/hanging_memory.hpp"
 #include "robot/core/sonar/mover_watch.hpp"
 
 namespace priamos::robot {
@@ -28,6 +29,7 @@ struct DriveConfig {
   AccelerationLimits braking{.acceleration_m_s2 = 1.0, .turn_acceleration_rad_s2 = 2.0};
   EchoMemoryConfig echoes;
   FloorMemoryConfig floor;
+  HangingConfig hanging;
   MoverConfig movers;
   ApproachConfig approach;
   MeetingStopConfig meeting;

@@ -58,6 +58,7 @@ DriveController::DriveController(const DriveConfig& config, const MecanumGeometr
       brake_(config.braking),
       echoes_(config.echoes, config.footprint),
       floor_(config.floor),
+      hanging_(config.hanging, config.footprint),
       movers_(config.movers, config.footprint),
       approach_(config.approach, config.footprint),
       meeting_(config.meeting),
@@ -134,6 +135,7 @@ std::optional<WheelSpeeds> DriveController::Step(const DriveSituation& situation
   if (echoes_.newest()) sonar_heard_ = echoes_.newest();
   echoes_.Forget(situation.odom_from_base, now, HasPathToGo());
   floor_.Forget(situation.odom_from_base, now);
+  hanging_.Forget(situation.odom_from_base, now);
   authority_.Tick(now, HasPathToGo());
   if (authority_.holder().driver != Driver::kPlanner && !authority_.lease_lost()) DropPath();
   NoteTouch(situation, now);
@@ -164,6 +166,8 @@ DriveController::Obstacles DriveController::Around(const Pose2& odom_from_base) 
     around.seen.insert(around.seen.end(), points.begin(), points.end());
   };
   around.placed = floor_.Points(odom_from_base);
+  const std::vector<Eigen::Vector2d> hanging = hanging_.Points(odom_from_base);
+  around.placed.insert(around.placed.end(), hanging.begin(), hanging.end());
   if (IsRough()) add(echoes_.Bridges(odom_from_base));
   if (HeedsMovers()) {
     const std::vector<Eigen::Vector2d> coming = movers_.Points(odom_from_base);

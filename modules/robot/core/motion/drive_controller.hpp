@@ -19,6 +19,7 @@
 #include "robot/core/sonar/approach_watch.hpp"
 #include "robot/core/sonar/echo_memory.hpp"
 #include "robot/core/sonar/floor_memory.hpp"
+#include "robot/core/sonar/hanging_memory.hpp"
 #include "robot/core/sonar/mover_watch.hpp"
 
 namespace priamos::robot {
@@ -96,6 +97,10 @@ class DriveController {
   bool AddFloorLine(const FloorLine& line, const Pose2& odom_from_base, Time now) {
     return floor_.Add(line, odom_from_base, now);
   }
+  /// Takes a thing that the head saw. `odom_from_map`: as it is known now.
+  void AddSeenThing(const SeenThing& thing, const Pose2& odom_from_map) {
+    hanging_.Take(thing, odom_from_map);
+  }
   /// Takes a cycle of the sonars. `odom_from_base`: pose when the cycle ended.
   void AddSonar(const SonarCycle& cycle, const Pose2& odom_from_base);
 
@@ -114,7 +119,7 @@ class DriveController {
   struct Obstacles {
     std::vector<Eigen::Vector2d> seen, remembered;
     /// Of `seen`, places that are known well enough to plan with from afar: before who comes, and on the
-    /// floor.
+    /// floor, and hanging.
     std::vector<Eigen::Vector2d> placed{};
   };
   const CollisionStop& Guard() const;
@@ -156,6 +161,7 @@ class DriveController {
   TwistSlew slew_, operator_slew_, brake_;
   EchoMemory echoes_;
   FloorMemory floor_;
+  HangingMemory hanging_;
   MoverWatch movers_;
   ApproachWatch approach_;
   MeetingStop meeting_;

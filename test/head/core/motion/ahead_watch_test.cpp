@@ -19,8 +19,9 @@ TEST(AheadWatch, LooksAheadWhileTheBaseDrivesIfItIsToldTo) {
 
 TEST(AheadWatch, TheSettingKeepsAllButPanAndTilt) {
   const HeadSetting base{0.1, 0.2, {-0.02, 0.02}, {650, 600}, {1600, 1500}};
-  const HeadSetting setting = AheadWatch({}).SettingFrom(base);
-  EXPECT_EQ(setting.pan_rad, 0);
+  const HeadSetting setting = AheadWatch({}).SettingFrom(base, Radians(-20));
+  EXPECT_EQ(setting.pan_rad, Radians(-20)) << "to where the base drives";
+  EXPECT_EQ(AheadWatch({}).SettingFrom(base, 3).pan_rad, Radians(AheadWatchConfig{}.max_pan_deg));
   EXPECT_EQ(setting.tilt_rad, Radians(AheadWatchConfig{}.tilt_deg));
   EXPECT_EQ(setting.zoom_step, base.zoom_step);
   EXPECT_EQ(setting.focus_step, base.focus_step);

@@ -25,7 +25,7 @@ SceneObject Object(ObjectKind kind, const Pose2& base_from_front, double width_m
 
 /// A look that shows these objects, and edges behind them.
 struct Shows : Scene {
-  Shows(std::initializer_list<SceneObject> seen) : Scene{test::HeadCamera(0, 1), seen, {}} {}
+  Shows(std::initializer_list<SceneObject> seen) : Scene{test::HeadCamera(0, 1), seen, {}, {}} {}
   Shows& Behind(const Eigen::Vector3d& at) {
     edges.push_back({at, 1e-4 * Eigen::Matrix2d::Identity(), 200});
     return *this;
@@ -71,6 +71,58 @@ TEST(SceneTracks, AnEdgeGoesIntoTheFrontThatItBelongsTo) {
   ASSERT_EQ(dut.tracks().size(), 2u);
   EXPECT_EQ(dut.tracks()[0].object.kind, ObjectKind::kEdge);
   EXPECT_NEAR(dut.tracks()[0].place.map_from_thing.y, 1.3, 1e-9);
+}
+
+/// The top of a table.
+SceneObject Top(const Pose2& base_from_front, double width_m = 1, double depth_m = 0.6) {
+  SceneObject top = Object(ObjectKind::kBox, base_from_front, width_m);
+  top.depth_m = depth_m;
+  top.top_m = 0.72;
+  top.bottom_m = 0.67;
+  return top;
+}
+
+TEST(SceneTracks, ATopIsKnownByItsLargestPart) {
+  SceneTracks dut;
+  dut.Add(Shows{Top({2, 0, 0}, 0.5, 0.3)}, {}, At(0));
+  dut.Add(Shows{Top({1.8, 0, 0})}, {0.2, 0, 0}, At(1));
+  dut.Add(Shows{Top({1.6, 0.2, 0}, 0.5, 0.3)}, {0.4, 0, 0}, At(2));
+  ASSERT_EQ(dut.tracks().size(), 1u);
+  EXPECT_EQ(dut.tracks()[0].object.width_m, 1);
+  EXPECT_EQ(dut.tracks()[0].looks, 3);
+  EXPECT_EQ(dut.Urgent(At(2)).size(), 1u);
+}
+
+TEST(SceneTracks, ATopThatOnlyPartsWereSeenOfIsBelievedToo) {
+  SceneTracks dut;
+  dut.Add(Shows{Top({2, 0, 0})}, {}, At(0));
+  dut.Add(Shows{Top({1.8, 0.2, 0}, 0.5, 0.3)}, {0.2, 0, 0}, At(1));
+  EXPECT_EQ(dut.Urgent(At(1)).size(), 1u);
+}
+
+TEST(SceneTracks, ATopIsNoPartOfWhatStandsBelowIt) {
+  SceneTracks dut;
+  dut.Add(Shows{Top({2, 0, 0}), Object(ObjectKind::kFace, {2, 0, 0})}, {}, At(0));
+  dut.Add(Shows{Top({1.8, 0, 0}), Object(ObjectKind::kFace, {1.8, 0, 0})}, {0.2, 0, 0}, At(1));
+  EXPECT_EQ(dut.tracks().size(), 2u);
+  EXPECT_EQ(dut.Urgent(At(1)).size(), 1u);
+  EXPECT_EQ(dut.Tellables(At(1)).size(), 2u);
+}
+
+TEST(SceneTracks, ATopWhoseFrontIsMissingHasGone) {
+  SceneTracks dut;
+  Shows shows{Top({2.8, 0, 0})};
+  shows.objects[0].top_m = 1;
+  shows.objects[0].bottom_m = 0.95;
+  dut.Add(shows, {}, At(0));
+  shows.objects[0].base_from_front.x = 2.6;
+  dut.Add(shows, {0.2, 0, 0}, At(1));
+  ASSERT_EQ(dut.tracks().size(), 1u);
+  EXPECT_FALSE(dut.HasGone(dut.tracks()[0]));
+  dut.Add(Shows{}, {0.4, 0, 0}, At(2));
+  dut.Add(Shows{}, {0.6, 0, 0}, At(3));
+  ASSERT_EQ(dut.tracks().size(), 1u);
+  EXPECT_TRUE(dut.HasGone(dut.tracks()[0]));
 }
 
 TEST(SceneTracks, WhatLooksSeeThroughHasGone) {

@@ -45,6 +45,14 @@ TEST(TurnTaking, OfTwoThatAreNewsTheHeavierOneGoesFirst) {
   EXPECT_EQ(dut.Next(things, At(10)), 2) << "then in turn";
 }
 
+TEST(TurnTaking, OfNewsOnlyNothingIsToldAgain) {
+  TurnTaking dut({.every_s = 0.4, .news_only = true});
+  EXPECT_EQ(dut.Next(std::array{Thing(1), Thing(2)}, At(0)), 1);
+  EXPECT_EQ(dut.Next(std::array{Thing(1), Thing(2)}, At(0.5)), 2);
+  EXPECT_FALSE(dut.Next(std::array{Thing(1), Thing(2)}, At(20)));
+  EXPECT_EQ(dut.Next(std::array{Thing(1), Thing(2, 0.1)}, At(21)), 2) << "it is elsewhere";
+}
+
 TEST(TurnTaking, AllHaveTheirTurn) {
   TurnTaking dut;
   const std::array things{Thing(1), Thing(2), Thing(3)};

@@ -94,6 +94,28 @@ TEST(ObstaclesOf, AFaceIsFiveCentimetresDeepAndAnEdgeIsNothing) {
   EXPECT_THAT(Of(object), IsEmpty());
 }
 
+TEST(ObstaclesOf, TheTopOfATableIsOneAndWhatHangsAtAWallOrOverADoorIsNone) {
+  LearnedObject top = BoxAt(3, 2.4, 90);
+  top.bottom_m = 0.67;
+  top.top_m = 0.72;
+  EXPECT_THAT(Of(top), SizeIs(1));
+  LearnedObject border = top;
+  border.kind = "face";
+  border.depth_m = 0;
+  EXPECT_THAT(Of(border), SizeIs(1));
+  LearnedObject picture = border;
+  picture.x_m = 5.92;
+  picture.y_m = 0.9;
+  picture.yaw_deg = 0;
+  EXPECT_THAT(Of(picture), IsEmpty()) << "its lower border, on the wall beside the door";
+  LearnedObject lintel = border;
+  lintel.x_m = 5.92;
+  lintel.yaw_deg = 0;
+  lintel.bottom_m = 1.3;
+  lintel.top_m = 1.35;
+  EXPECT_THAT(Of(lintel), IsEmpty()) << "no door is closed by what hangs over it";
+}
+
 TEST(ObstaclesOf, ThingsThatAreHardlyKnownOrNotInTheWayAreNone) {
   const auto counts = [](const auto& change) {
     LearnedObject object = BoxAt(3, 2.4, 90);

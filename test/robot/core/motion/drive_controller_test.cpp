@@ -83,6 +83,28 @@ TEST_F(DriveControllerTest, TheSamePathAgainChangesNothing) {
   }
 }
 
+TEST_F(DriveControllerTest, ItStandsBeforeATableTopThatOnlyTheHeadSees) {
+  SeenThing table;
+  table.seen = rig_.now();
+  table.map_from_front = {2.5, 0, 0};
+  table.width_m = 1.2;
+  table.depth_m = 0.6;
+  table.bottom_m = 0.67;
+  table.top_m = 0.72;
+  rig_.Run(0.2);
+  rig_.SetPath(Straight());
+  rig_.Run(1);
+  rig_.drive().AddSeenThing(table, {});
+  rig_.Run(10);
+  EXPECT_EQ(rig_.state().mode, DriveMode::kBlocked);
+  EXPECT_GT(rig_.base().truth().x, 1.5);
+  EXPECT_LT(rig_.base().truth().x, 2.5 - 0.475);
+  table.has_gone = true;
+  rig_.drive().AddSeenThing(table, {});
+  rig_.Run(8);
+  EXPECT_GT(rig_.base().truth().x, 3) << "it has gone";
+}
+
 TEST_F(DriveControllerTest, EncodersFallSilentTheBaseBrakesAndGoesOnWhenTheyAreBack) {
   rig_.SetPath(Straight());
   rig_.Run(3);
