@@ -17,6 +17,8 @@ std::string Text(const Pose2& pose) {
 void GotoMissionConfig::Describe(Archive& a) {
   a.Number("speed_m_s", speed_m_s, {"m/s", 0.05, 1, "on the way"});
   a.Number("near_m", near_m, {"m", 0.01, 1, "distance to the goal at which the mission is done"});
+  a.Number("beside_m", beside_m,
+           {"m", 0, 2, "the same where what stands there lets the base come no nearer; 0: never"});
   a.Number("turned_deg", turned_deg, {"deg", 0.5, 45, "difference in heading at which it is done"});
   a.Integer("retries", retries, {"-", 0, 20, "other ways that are tried after something was in the way"});
   a.Number("stands_s", stands_s,
@@ -107,13 +109,23 @@ void GotoMission::Depart(MissionControl& control, const std::string& why) {
 /// tried once more; a goal that nothing has stopped it from is refused at once.
 void GotoMission::WaitOrFail(MissionControl& control, const std::string& why, const std::string& no_way) {
   if (why.empty()) return control.Fail(no_way);
-  if (++waits_ > config_.waits) return control.Fail(why + ", and " + no_way);
+  if (++waits_ > config_.waits) return GiveUp(control, why + ", and " + no_way);
   planner_.Forget();
   departures_ = 0;
   waits_since_ = control.now();
   control.OrderPath({}, 0);
   control.Enter(Phase::kWaiting, fmt::format("{}, and {}; waits {:.0f} s for it to go away, {} of {} times",
                                              why, no_way, config_.wait_s, waits_, config_.waits));
+}
+
+/// Beside the goal the base is as near as what stands there lets it come, and who sent it will see that.
+void GotoMission::GiveUp(MissionControl& control, const std::string& reason) {
+  const Pose2& base = control.heard().pose->map_from_base;
+  if (!IsWithin(config_.beside_m, base)) return control.Fail(reason);
+  control.OrderPath({}, 0);
+  const double off_m = (base.translation() - goal_.map_from_base.translation()).norm();
+  control.Enter(Phase::kDone, fmt::format("at {}, {:.2f} m beside {}: {}", Text(base), off_m,
+                                          Text(goal_.map_from_base), reason));
 }
 
 void GotoMission::Drive(MissionControl& control, PlannedPath path, const std::string& why) {
@@ -128,7 +140,7 @@ void GotoMission::Drive(MissionControl& control, PlannedPath path, const std::st
 
 void GotoMission::Arrive(MissionControl& control) {
   const RobotPose& pose = *control.heard().pose;
-  if (AtGoal(pose.map_from_base)) {
+  if (IsWithin(config_.near_m, pose.map_from_base)) {
     const double sigma_m = std::sqrt(std::max(pose.covariance(0, 0), pose.covariance(1, 1)));
     return control.Enter(Phase::kDone,
                          fmt::format("at {} after {:.1f} s, known to {:.2f} m", Text(pose.map_from_base),
@@ -140,19 +152,21 @@ void GotoMission::Arrive(MissionControl& control) {
   Depart(control, "");
 }
 
-bool GotoMission::AtGoal(const Pose2& map_from_base) const {
+bool GotoMission::IsWithin(double distance_m, const Pose2& map_from_base) const {
   const Pose2 off = goal_.map_from_base.Inverse() * map_from_base;
   const bool turned = !goal_.turn || std::abs(off.yaw) <= Radians(config_.turned_deg);
-  return turned && off.translation().norm() <= config_.near_m;
+  return turned && off.translation().norm() <= distance_m;
 }
 
 void GotoMission::OnStop(MissionControl& control, const Stop& stop) {
-  if (stop.cause == Stop::Cause::kBlocked && AtGoal(control.heard().pose->map_from_base)) {
+  const bool blocked = stop.cause == Stop::Cause::kBlocked;
+  if (blocked && IsWithin(config_.near_m, control.heard().pose->map_from_base)) {
     control.OrderPath({}, 0);  // what is left of the path is not to be driven later
     return Arrive(control);
   }
-  if (stop.cause != Stop::Cause::kBlocked || ++departures_ > config_.retries)
-    return control.Fail(stop.reason + "; next: look what it is, and order it again");
+  if (!blocked) return control.Fail(stop.reason + "; next: look what it is, and order it again");
+  if (++departures_ > config_.retries)
+    return GiveUp(control, stop.reason + "; next: look what it is, and order it again");
   if (const auto thing = ThingAhead(control, footprint_, config_.thing_m))
     planner_.Add("what stopped the robot", *thing);
   Depart(control, stop.reason);

@@ -16,7 +16,9 @@ namespace priamos::planner {
 /// Speed, tolerances and limits of a mission to a place.
 struct GotoMissionConfig {
   double speed_m_s = 0.30;
-  double near_m = 0.10;   ///< distance to the goal at which the mission is done ...
+  double near_m = 0.10;  ///< distance to the goal at which the mission is done ...
+  /// The same where the robot was stopped again and again by what stands there: no nearer place is to be had.
+  double beside_m = 0.3;
   double turned_deg = 5;  ///< ... and the difference in heading, if the heading counts
   int retries = 3;        ///< other ways that are tried after something was in the way
   double stands_s = 30;   ///< a robot that holds on its way for so long has the mission fail
@@ -56,7 +58,8 @@ class GotoMission : public Mission {
   void Learn(const MissionControl& control);
   void Reconsider(MissionControl& control);
   void Arrive(MissionControl& control);
-  bool AtGoal(const Pose2& map_from_base) const;
+  void GiveUp(MissionControl& control, const std::string& reason);
+  bool IsWithin(double distance_m, const Pose2& map_from_base) const;
 
   GotoMissionConfig config_;
   Footprint footprint_;

@@ -276,5 +276,26 @@ TEST(GotoMissionTest, ALongWayIsDrivenInPieces) {
   for (const PathOrder& path : s.robot.paths) EXPECT_LE(path.points.size(), 16u);
 }
 
+TEST(GotoMissionTest, WhatStandsAtTheGoalLetsTheBaseComeBesideIt) {
+  Story s;
+  s.Start({{4.6, 2.4, 0}, false});
+  s.robot.RunUntilX(4.4);
+  s.robot.blocked = true;
+  s.robot.RunFor(120);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone);
+  EXPECT_THAT(s.dut.state().text, AllOf(HasSubstr("m beside (4.60, 2.40): "), HasSubstr("blocked")));
+  for (int i = 0; i < 10; ++i) s.robot.Step();  // the radio's delay
+  EXPECT_TRUE(s.robot.paths.back().points.empty()) << "nothing is left to be driven";
+}
+
+TEST(GotoMissionTest, FartherFromTheGoalItFails) {
+  Story s;
+  s.Start({{4.6, 2.4, 0}, false});
+  s.robot.RunUntilX(4.2);
+  s.robot.blocked = true;
+  s.robot.RunFor(200);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+}
+
 }  // namespace
 }  // namespace priamos::planner
