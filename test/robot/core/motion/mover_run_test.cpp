@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "test/robot/support/legs.hpp"
 #include "test/robot/support/robot_rig.hpp"
 
 namespace priamos::robot {
@@ -52,27 +53,6 @@ TEST(MoverRun, WhoWalksIntoTheBaseWalksIntoOneThatStands) {
     }
 }
 
-/// Round, as far as sonars are concerned: whatever the side, a face looks at them.
-std::vector<Surface> RoundLeg(const Eigen::Vector2d& at) {
-  constexpr int kFaces = 12;
-  constexpr double kRadius_m = 0.075;
-  const auto corner = [&](int i) -> Eigen::Vector2d {
-    const double angle = 2 * kPi * i / kFaces;
-    return at + kRadius_m * Eigen::Vector2d(std::cos(angle), std::sin(angle));
-  };
-  std::vector<Surface> faces;
-  for (int i = 0; i < kFaces; ++i) faces.push_back({corner(i), corner(i + 1)});
-  return faces;
-}
-
-/// Two legs of somebody who walks along y.
-std::vector<Surface> LegsAcross(const Eigen::Vector2d& at) {
-  auto legs = RoundLeg(at - Eigen::Vector2d(0.11, 0));
-  const auto right = RoundLeg(at + Eigen::Vector2d(0.11, 0));
-  legs.insert(legs.end(), right.begin(), right.end());
-  return legs;
-}
-
 /// Somebody slow, from `slant` off the side, who would meet the front corner of a base that drove on.
 double FastestBesideWhoCrosses(std::uint64_t seed, double speed_m_s, double slant_rad) {
   constexpr double kMeets_s = 9, kCorner_m = 0.55;
@@ -85,10 +65,10 @@ double FastestBesideWhoCrosses(std::uint64_t seed, double speed_m_s, double slan
   for (int i = 0; i < 50 * (kMeets_s + 1); ++i) {
     const Eigen::Vector2d next = at + velocity / 50;
     rig.sonars().Clear();
-    rig.sonars().Add(LegsAcross(next));
+    rig.sonars().Add(RoundLegs(next));
     if (rig.sonars().Gap(rig.base().truth()) > 0.02) at = next;
     rig.sonars().Clear();
-    rig.sonars().Add(LegsAcross(at));
+    rig.sonars().Add(RoundLegs(at));
     const double gap_m = rig.sonars().Gap(rig.base().truth());
     rig.Tick();
     const Twist2 twist = rig.base().twist();

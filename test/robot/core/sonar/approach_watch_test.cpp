@@ -4,33 +4,13 @@
 
 #include <cmath>
 
+#include "test/robot/support/legs.hpp"
 #include "test/robot/support/simulated_sonars.hpp"
 
 namespace priamos::robot {
 namespace {
 
 constexpr double kWithin_s = 1.5, kBase_m_s = 0.3;
-
-/// Round, as far as sonars are concerned: whatever the side, a face looks at them.
-std::vector<Surface> RoundLeg(const Eigen::Vector2d& at) {
-  constexpr int kFaces = 12;
-  constexpr double kRadius_m = 0.075;
-  const auto corner = [&](int i) -> Eigen::Vector2d {
-    const double angle = 2 * kPi * i / kFaces;
-    return at + kRadius_m * Eigen::Vector2d(std::cos(angle), std::sin(angle));
-  };
-  std::vector<Surface> faces;
-  for (int i = 0; i < kFaces; ++i) faces.push_back({corner(i), corner(i + 1)});
-  return faces;
-}
-
-/// Two legs side by side.
-std::vector<Surface> LegsAt(const Eigen::Vector2d& at) {
-  auto legs = RoundLeg(at - Eigen::Vector2d(0.11, 0));
-  const auto right = RoundLeg(at + Eigen::Vector2d(0.11, 0));
-  legs.insert(legs.end(), right.begin(), right.end());
-  return legs;
-}
 
 /// A watch on a base that drives straight ahead at `speed_m_s`.
 class Rig {
@@ -69,7 +49,7 @@ TEST(ApproachWatch, WhoComesFromTheSideIsNoticedHalfAMetreBefore) {
         const Eigen::Vector2d meets(6 * kBase_m_s + 0.4, side * 0.4);
         double noticed_m = 0;
         while (rig.t_s() < 5.9 && noticed_m == 0)
-          if (rig.Hears(LegsAt(meets + (rig.t_s() + 0.1 - 6) * velocity))) noticed_m = rig.Gap();
+          if (rig.Hears(RoundLegs(meets + (rig.t_s() + 0.1 - 6) * velocity))) noticed_m = rig.Gap();
         EXPECT_GT(noticed_m, 0.3) << speed_m_s << " m/s, " << slant_deg << " degrees, side " << side;
       }
     }
@@ -95,18 +75,18 @@ TEST(ApproachWatch, ThingsThatStandDoNotClose) {
 TEST(ApproachWatch, WhoStandsCloseIsWaitedForButNotForEver) {
   Rig rig(1, 0);
   const auto distance_m = [&] { return std::max(0.62, 2.4 - 0.6 * rig.t_s()); };
-  while (rig.t_s() < 3.2) rig.Hears(LegsAt({0, distance_m()}));
-  EXPECT_TRUE(rig.Hears(LegsAt({0, distance_m()})));
+  while (rig.t_s() < 3.2) rig.Hears(RoundLegs({0, distance_m()}));
+  EXPECT_TRUE(rig.Hears(RoundLegs({0, distance_m()})));
   EXPECT_TRUE(rig.MayTouch()) << "16 cm before the base his trunk may reach it";
-  while (rig.t_s() < 9) rig.Hears(LegsAt({0, 0.62}));
-  EXPECT_FALSE(rig.Hears(LegsAt({0, 0.62})));
+  while (rig.t_s() < 9) rig.Hears(RoundLegs({0, 0.62}));
+  EXPECT_FALSE(rig.Hears(RoundLegs({0, 0.62})));
   EXPECT_FALSE(rig.MayTouch());
 }
 
 TEST(ApproachWatch, WhoHasGoneIsForgotten) {
   Rig rig(1, 0);
-  while (rig.t_s() < 2) rig.Hears(LegsAt({0, 2.4 - 0.6 * rig.t_s()}));
-  EXPECT_TRUE(rig.Hears(LegsAt({0, 1.2})));
+  while (rig.t_s() < 2) rig.Hears(RoundLegs({0, 2.4 - 0.6 * rig.t_s()}));
+  EXPECT_TRUE(rig.Hears(RoundLegs({0, 1.2})));
   for (int i = 0; i < 6; ++i) rig.Hears({});
   EXPECT_FALSE(rig.Hears({}));
 }
