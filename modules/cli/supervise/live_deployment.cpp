@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "cli/supervise/supervisor_search.hpp"
 #include "cli/supervise/up_state.hpp"
 #include "common/data_folders.hpp"
 
@@ -13,6 +14,12 @@ ConfigSource PlannerIn(const std::string& config_folder) {
 }
 
 }  // namespace
+
+std::string LogRootInUse(const std::string& log_root, const std::string& robot, const std::string& network) {
+  if (UpLock::Holder(log_root)) return log_root;
+  const auto found = FindSupervisor(robot, network);
+  return found && found->log_root ? *found->log_root : log_root;
+}
 
 ConfigSource PlannerInUse(const std::string& named, const std::string& log_root) {
   if (!named.empty()) return PlannerIn(FindDeployment(named, ThisProgram()));

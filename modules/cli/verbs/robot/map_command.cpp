@@ -60,16 +60,21 @@ struct Maps {
   double fits_m = 1;  ///< width of a gap through which a route leads
 };
 
+std::string LogRootOf(const MapOptions& options) {
+  const std::string named = LogRoot(options.log_root);
+  return options.deployment.empty() ? LogRootInUse(named, std::string(bus::kDefaultRobot), "") : named;
+}
+
 /// Of a simulation the learned map is kept as long as it is up.
 std::string FileOf(const MapOptions& options, const fs::path& folder, const planner::PlannerConfig& config) {
   if (!options.file.empty()) return options.file;
   if (!config.learned_map.empty()) return (folder / config.learned_map).lexically_normal().string();
-  const auto up = ReadUpState(LogRoot(options.log_root));
+  const auto up = ReadUpState(LogRootOf(options));
   return up ? (fs::path(up->folder) / kLearnedMapFile).string() : "";
 }
 
 Maps MapsOf(const MapOptions& options) {
-  const ConfigSource planner = PlannerInUse(options.deployment, LogRoot(options.log_root));
+  const ConfigSource planner = PlannerInUse(options.deployment, LogRootOf(options));
   const fs::path folder = planner.Folder();
   const auto config = bus::LoadAppConfig<planner::PlannerConfig>(planner);
   Maps maps{LoadConfig<GroundPlan>((folder / config.map).lexically_normal().string()),

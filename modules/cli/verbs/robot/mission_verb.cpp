@@ -78,7 +78,9 @@ int GiveOrder(const MissionOptions& options, const mission_command_t& command, c
 }
 
 ConfigSource PlannerOf(const MissionOptions& options) {
-  return PlannerInUse(options.deployment, LogRoot(options.log_root));
+  if (!options.deployment.empty()) return PlannerInUse(options.deployment, "");
+  const bus::BusChoice& bus = options.bus.bus;
+  return PlannerInUse("", LogRootInUse(LogRoot(options.log_root), bus.robot, bus.network));
 }
 
 void AddPlannerOptions(CLI::App& verb, MissionOptions& options) {

@@ -6,12 +6,10 @@
 namespace priamos::head {
 
 std::vector<BodyTracker::Belief> BodyTracker::Beliefs() const {
-  const double anew = options_.fix.min_agreement;
-  const Belief start{start_, options_.fix.prior_share, options_.fix.prior_rad, anew};
+  const Belief start{start_, options_.fix.prior_share, options_.fix.prior_rad, false};
   if (!last_) return {start};
   const double growth = std::min(std::sqrt(1.0 + n_lost_), options_.max_growth);
-  const Belief last{*last_, growth * options_.motion_share, growth * options_.motion_rad,
-                    n_lost_ > 0 ? anew : options_.min_agreement_when_followed};
+  const Belief last{*last_, growth * options_.motion_share, growth * options_.motion_rad, n_lost_ == 0};
   if (n_lost_ > 0) return {last, start};
   return {last};
 }
@@ -24,7 +22,8 @@ FreeModelFix BodyTracker::Look(std::span<const CameraView> views) {
     FreeModelOptions options = options_.fix;
     options.prior_share = belief.share;
     options.prior_rad = belief.rad;
-    options.min_agreement = belief.min_agreement;
+    if (belief.is_followed)
+      options.min_agreement = options.min_agreement_when_coarse = options_.min_agreement_when_followed;
     FreeModelFix fix = LocateFreeModel(body_, belief.base_from_model, views, options);
     if (fix.verdict == Verdict::kFound) {
       last_ = fix.base_from_model;

@@ -31,8 +31,8 @@ class Judge {
 
   Verdict Of(const BodyState& state, const FreeModelFix& fix) const {
     if (static_cast<int>(state.association.matches.size()) < options_.min_matched ||
-        fix.log_odds < options_.min_log_odds || fix.agreement.Value(fix.misfit) < options_.min_agreement ||
-        !TellsPose(state))
+        fix.log_odds < options_.min_log_odds || !Agrees(state, fix) ||
+        !IsWithin(options_.max_sigma_share, options_.max_sigma_rad, state))
       return Verdict::kTooFewEdges;
     if (fix.misfit > options_.max_misfit) return Verdict::kResidualTooLarge;
     if (fix.log_odds - fix.rival_log_odds < options_.min_lead) return Verdict::kAmbiguous;
@@ -42,9 +42,15 @@ class Judge {
   }
 
  private:
-  bool TellsPose(const BodyState& state) const {
-    return PlaceSigma(state) <= options_.max_sigma_share * distance_m_ &&
-           TurnSigma(state) <= options_.max_sigma_rad;
+  bool Agrees(const BodyState& state, const FreeModelFix& fix) const {
+    const bool fine = IsWithin(options_.fine_sigma_share, options_.fine_sigma_rad, state);
+    return fix.agreement.Value(fix.misfit) >=
+           (fine ? options_.min_agreement : options_.min_agreement_when_coarse);
+  }
+
+  /// Whether the edges tell the pose so well.
+  bool IsWithin(double sigma_share, double sigma_rad, const BodyState& state) const {
+    return PlaceSigma(state) <= sigma_share * distance_m_ && TurnSigma(state) <= sigma_rad;
   }
 
   /// Largest standard deviation in any direction.

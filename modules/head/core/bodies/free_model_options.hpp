@@ -12,18 +12,20 @@ struct FreeModelOptions {
   double prior_share = 0.035, prior_rad = 0.03;
   double max_prior_sigmas = 3.5;  ///< farther from the belief is "elsewhere"
   BodyProposalOptions proposals{};
-  int min_matched = 6;                                  ///< edges that must be found, all images together
-  double min_log_odds = 6;                              ///< of the body there against clutter only
-  double min_agreement = 1.15;                          ///< BodyAgreement::Value
+  int min_matched = 6;          ///< edges that must be found, all images together
+  double min_log_odds = 6;      ///< of the body there against clutter only
+  double min_agreement = 1.15;  ///< BodyAgreement::Value
+  /// The same where the edges tell the pose less well than fine_sigma_*, as of a small body: one of another
+  /// size fits them nearly as well.
+  double min_agreement_when_coarse = 1.25;
   double min_lead = 4;                                  ///< log odds over the best different pose
   double distinct_share = 0.01, distinct_rad = 0.0175;  ///< poses farther apart are different
   double max_misfit = 4;  ///< largest variance of the edges over the one that is expected of them
-  double outlier_misfit =
-      9;  ///< an edge that fits worse than that, by the variance found, is not the model's
   double max_outlier_share = 0.3;
   /// Standard deviation of the place over the distance, and of the attitude, in the worst direction: what a
   /// fix must at least tell.
   double max_sigma_share = 0.02, max_sigma_rad = 0.05;
+  double fine_sigma_share = 0.004, fine_sigma_rad = 0.007;
   PoseSolverOptions solver{.on_floor = false, .edge_sigma_px = 0.03, .max_iterations = 15};
 };
 

@@ -341,7 +341,7 @@ Twist2 DriveController::FreeOf(const Twist2& motion, const Obstacles& around) co
 }
 
 Twist2 DriveController::Slewed(const Twist2& wanted, double dt_s) {
-  if (state_.failsafe.action != FailsafeAction::kNone) return brake_.Step(wanted, dt_s);
+  if (state_.failsafe.action != FailsafeAction::kNone || stands_for_comer_) return brake_.Step(wanted, dt_s);
   if (state_.mode == DriveMode::kOperated) return operator_slew_.Step(wanted, dt_s);
   return follower_.has_path() ? slew_.Step(wanted, dt_s) : brake_.Step(wanted, dt_s);
 }
@@ -393,6 +393,7 @@ void DriveController::NoteWaiting(const DriveSituation& situation, const Obstacl
 void DriveController::NoteTouch(const DriveSituation& situation, Time now) {
   std::optional<Twist2> motion;
   if (Source(now) != DriveSource::kOperator && situation.estimate) motion = situation.estimate->twist;
+  if (motion && stands_for_comer_) motion = Twist2{};  // it brakes for who came, and he was faster
   const auto touch = touch_.Update(situation.odom_from_base, now, motion);
   if (touch) state_.touch = touch;
   const bool stands = motion && SpeedOf(*motion) < kStanding;

@@ -174,7 +174,7 @@ class DriveController {
   std::optional<Path> path_;  ///< the newest order
   bool path_is_new_ = false;  ///< not yet given to the follower
   bool ever_ordered_ = false;
-  bool stands_for_comer_ = false;  ///< in this step
+  bool stands_for_comer_ = false;  ///< in the newest step
   std::optional<Time> last_step_, first_step_, sonar_heard_;
   std::optional<Time> pose_lost_since_, blocked_since_, stuck_since_;
   std::optional<Time> bumped_since_, bumped_;  ///< since when somebody who came touches the base; newest
