@@ -85,6 +85,14 @@ TEST(MoverRun, WhoComesSlowlyFromTheSideWalksIntoABaseThatStands) {
             << speed_m_s << " m/s, " << slant_deg << " degrees, seed " << seed;
 }
 
+TEST(MoverRun, WhoComesFastFromTheSideMeetsABaseThatIsAboutToStand) {
+  for (const double slant_deg : {-20.0, 0.0, 30.0})
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      const double v = FastestBesideWhoCrosses(seed, 1.2, Radians(slant_deg));
+      EXPECT_LT(v, 0.1) << slant_deg << " degrees, seed " << seed;
+    }
+}
+
 TEST(MoverRun, WhoHasComeAndGoneBlocksNothing) {
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
     RobotRig rig(seed, {}, {}, {}, Hall());
