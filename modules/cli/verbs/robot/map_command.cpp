@@ -66,19 +66,21 @@ std::string LogRootOf(const MapOptions& options) {
 }
 
 /// Of a simulation the learned map is kept as long as it is up.
-std::string FileOf(const MapOptions& options, const fs::path& folder, const planner::PlannerConfig& config) {
+std::string FileOf(const MapOptions& options, const std::string& log_root, const fs::path& folder,
+                   const planner::PlannerConfig& config) {
   if (!options.file.empty()) return options.file;
   if (!config.learned_map.empty()) return (folder / config.learned_map).lexically_normal().string();
-  const auto up = ReadUpState(LogRootOf(options));
+  const auto up = ReadUpState(log_root);
   return up ? (fs::path(up->folder) / kLearnedMapFile).string() : "";
 }
 
 Maps MapsOf(const MapOptions& options) {
-  const ConfigSource planner = PlannerInUse(options.deployment, LogRootOf(options));
+  const std::string log_root = LogRootOf(options);
+  const ConfigSource planner = PlannerInUse(options.deployment, log_root);
   const fs::path folder = planner.Folder();
   const auto config = bus::LoadAppConfig<planner::PlannerConfig>(planner);
   Maps maps{LoadConfig<GroundPlan>((folder / config.map).lexically_normal().string()),
-            FileOf(options, folder, config),
+            FileOf(options, log_root, folder, config),
             {},
             config.footprint.width_m + 2 * config.go.route.least_margin_m};
   if (!options.file.empty() && !fs::exists(options.file))

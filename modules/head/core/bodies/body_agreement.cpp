@@ -11,7 +11,6 @@ namespace {
 constexpr double kEnds = 0.66, kMisfit = 0.049;
 constexpr double kLeastMisfit = 0.01;          ///< less says no more: it is as good as exact
 constexpr double kEnd_px = 4, kEndByBlur = 2;  ///< an end is found so near to where the model has it
-constexpr double kFullLength_px = 40;          ///< a longer edge counts as this
 
 }  // namespace
 

@@ -2,28 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 #include <utility>
+
+#include "head/core/edges/image_levels.hpp"
 
 namespace priamos::head {
 namespace {
 
-constexpr int kLeastSide_px = 32;       ///< what EdgeOperator takes
 constexpr double kLeastBlur_px = 0.9;   ///< pixels of a level: what is sharper belongs to the finer one
 constexpr double kWidestBlur_px = 2.2;  ///< pixels of a level: what is softer is measured on a coarser one
 constexpr double kChunk_px = 6;         ///< step in which a coarse edge is compared with finer ones
 constexpr double kShortest_px = 8;      ///< shortest edge, in pixels of a coarse level
 
-/// A point of a level, in the pixels of the whole image. Pixels are counted from their centres.
-Eigen::Vector2d ToWhole(const Eigen::Vector2d& at, double factor) {
-  return factor * at + Eigen::Vector2d::Constant((factor - 1) / 2);
-}
-
 /// `segment` of the whole image in the pixels of a level.
-EdgeSegment ToLevel(EdgeSegment segment, double factor) {
-  const Eigen::Vector2d shift = Eigen::Vector2d::Constant((factor - 1) / 2);
-  segment.begin = (segment.begin - shift) / factor;
-  segment.end = (segment.end - shift) / factor;
+EdgeSegment OnLevel(EdgeSegment segment, double factor) {
+  segment.begin = ToLevel(segment.begin, factor);
+  segment.end = ToLevel(segment.end, factor);
   return segment;
 }
 
@@ -62,11 +56,7 @@ void ScaleEdgeOperator::Extract(const cv::Mat& image, BlurredEdges& out) {
   for (int i = 0; i < int(out.edges.segments.size()); ++i) found_.Draw(out.edges.segments[i], i);
   int n_levels = 1;
   for (; n_levels < kLevels; ++n_levels) {
-    const cv::Mat& finer = images_[n_levels - 1];
-    const cv::Size size(finer.cols / 2, finer.rows / 2);
-    if (std::min(size.width, size.height) < kLeastSide_px) break;
-    // Without the odd last row and column, so that a pixel is exactly the mean of four.
-    cv::resize(finer({0, 0, 2 * size.width, 2 * size.height}), images_[n_levels], size, 0, 0, cv::INTER_AREA);
+    if (!Halve(images_[n_levels - 1], images_[n_levels])) break;
     meters_[n_levels].SetImage(images_[n_levels]);
     AddLevel(n_levels, out.edges);
   }
@@ -136,7 +126,7 @@ double ScaleEdgeOperator::Blur(const EdgeSegment& segment, int n_levels) const {
   double blur = 0;
   for (int level = 0; level < n_levels; ++level) {
     const double factor = std::exp2(level);
-    blur = meters_[level].Blur(ToLevel(segment, factor));
+    blur = meters_[level].Blur(OnLevel(segment, factor));
     if (blur <= kWidestBlur_px || level + 1 == n_levels) return factor * blur;
   }
   return blur;

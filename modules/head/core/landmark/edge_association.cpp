@@ -12,7 +12,6 @@ namespace {
 
 constexpr std::size_t kUsualCandidates = 16;
 constexpr int kSides = 4;                  ///< values of LandmarkEdge::side
-constexpr double kFullLength_px = 40;      ///< shorter predictions count less
 constexpr double kMinDensity = 0.01;       ///< similar edges per pixel: even a bare wall may hide one
 constexpr double kOvershootPenalty = 0.5;  ///< log odds lost per pixel beyond
 constexpr double kNearlyWhole = 0.6;       ///< covered share that counts as a whole edge

@@ -17,6 +17,9 @@ struct CornerMatch {
   double log_odds = 0;           ///< part of Association::log_odds: whether the edges end in the corner
 };
 
+/// Shorter predictions count less, longer ones as this.
+inline constexpr double kFullLength_px = 40;
+
 /// Evidence of the images for one supposed pose.
 struct Association {
   double missed_log_odds = 0;  ///< log odds of a whole edge that is not found
