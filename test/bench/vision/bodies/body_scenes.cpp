@@ -147,10 +147,10 @@ void AddBody(const Body& body, const Eigen::Isometry3d& at, bool labelled, Rng& 
     faces.push_back({corner, body.At(q, 0) - corner, {0, body.length, 0}, rng.Uniform(40, 230)});
   }
   const int n_labels = labelled ? static_cast<int>(rng.Below(4)) : 0;
-  const std::size_t n_faces = faces.size();
-  for (std::size_t i = 0; i < n_faces; ++i)
-    if (!faces[i].is_triangle) AddLabels(faces[i], faces[i].grey, n_labels, rng, faces);
-  for (Quad& q : faces)
+  const std::vector<Quad> bare = faces;
+  for (const Quad& face : bare)
+    if (!face.is_triangle) AddLabels(face, face.grey, n_labels, rng, faces);
+  for (const Quad& q : faces)
     quads.push_back({at * q.corner, at.linear() * q.u, at.linear() * q.v, q.grey, q.is_triangle});
 }
 
