@@ -106,9 +106,9 @@ void GotoMission::Depart(MissionControl& control, const std::string& why) {
 }
 
 /// What stopped the robot may be somebody, who goes away. Then all that stopped it is forgotten, and the way
-/// tried once more; a goal that nothing has stopped it from is refused at once.
+/// tried once more; from a goal that is taken by what is on the map nobody is expected to go away.
 void GotoMission::WaitOrFail(MissionControl& control, const std::string& why, const std::string& no_way) {
-  if (why.empty()) return control.Fail(no_way);
+  if (why.empty()) return GiveUp(control, no_way);
   if (++waits_ > config_.waits) return GiveUp(control, why + ", and " + no_way);
   planner_.Forget();
   departures_ = 0;

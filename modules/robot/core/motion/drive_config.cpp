@@ -8,7 +8,9 @@ void DriveConfig::Describe(Archive& a) {
   a.Number("lost_yaw_deg", lost_yaw_deg,
            {"deg", 1, 90, "no path is driven by a pose with a larger sigma of the heading"});
   a.Number("blocked_s", blocked_s, {"s", 0, 60, "standing before an obstacle for this long is BLOCKED"});
-  a.Number("waits_s", waits_s, {"s", 0.5, 60, "getting nowhere on a path for this long is BLOCKED, too"});
+  a.Number("waits_s", waits_s, {"s", 0.5, 60, "standing on a path for this long is BLOCKED, too"});
+  a.Number("no_nearer_s", no_nearer_s,
+           {"s", 1, 600, "so is coming no nearer to the end of a path for this long, though the base moves"});
   a.Number("operator_margin_m", operator_margin_m,
            {"m", 0, 0.5,
             "added to the margins of collision for an operator, and where a line may be left by little"});

@@ -42,7 +42,8 @@ struct DriveConfig {
   double lost_position_m = 0.5;  ///< sigma of the position beyond which no path is driven
   double lost_yaw_deg = 12;
   double blocked_s = 0.5;
-  double waits_s = 3;          ///< on its way, but nowhere for so long: something closes the way
+  double waits_s = 3;          ///< standing on its way for so long: something closes the way
+  double no_nearer_s = 15;     ///< moving for so long and no nearer to the end of the path: the same
   double fix_needed_m = 0.25;  ///< sigma beyond which a silent head matters
 
   void Describe(Archive& a);

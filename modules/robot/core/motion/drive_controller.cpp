@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace priamos::robot {
 namespace {
@@ -17,7 +16,6 @@ constexpr milliseconds kHeadDue{1500};
 constexpr double kStanding = 0.01;     ///< [m/s] slower is standing
 constexpr double kWantsToMove = 0.03;  ///< [m/s]
 constexpr double kCreeping = 0.05;     ///< [m/s] before an obstacle this is standing, too
-constexpr double kBeside = 0.5;        ///< [m] from the base: so near, an arc is narrow enough for a place
 constexpr double kSlowed = 0.98;       ///< a scale below this is reported as a limit
 
 double SpeedOf(const Twist2& twist) {
@@ -46,6 +44,12 @@ CollisionStopConfig WithMargin(CollisionStopConfig config, double more_m) {
   return config;
 }
 
+/// What stops the base for `blocked_s` is not to be told twice within that time.
+ProgressWatch::Limits ProgressLimits(const DriveConfig& config) {
+  return {FromSeconds(std::max(config.waits_s, config.blocked_s)),
+          FromSeconds(std::max(config.no_nearer_s, config.blocked_s))};
+}
+
 }  // namespace
 
 DriveController::DriveController(const DriveConfig& config, const MecanumGeometry& geometry)
@@ -56,12 +60,9 @@ DriveController::DriveController(const DriveConfig& config, const MecanumGeometr
       slew_(config.acceleration),
       operator_slew_(config.operator_acceleration),
       brake_(config.braking),
-      echoes_(config.echoes, config.footprint),
-      floor_(config.floor),
-      hanging_(config.hanging, config.footprint),
-      movers_(config.movers, config.footprint),
-      approach_(config.approach, config.footprint),
+      surroundings_(config),
       meeting_(config.meeting),
+      progress_(ProgressLimits(config)),
       collision_(config.collision, config.footprint),
       rough_collision_(WithMargin(config.collision, config.operator_margin_m), config.footprint),
       touch_(config.touch, config.footprint, geometry),
@@ -73,19 +74,12 @@ void DriveController::Reconfigure(const DriveConfig& config) {
   config_.lost_position_m = config.lost_position_m;
   config_.lost_yaw_deg = config.lost_yaw_deg;
   config_.blocked_s = config.blocked_s;
+  progress_ = ProgressWatch(ProgressLimits(config_));
   follower_.LimitSpeeds(config.follower.shape);
   operator_slew_.set_limits(config.operator_acceleration);
-  echoes_.Believe(config.echoes);
+  surroundings_.Believe(config.echoes);
   collision_ = CollisionStop(config.collision, config_.footprint);
   rough_collision_ = CollisionStop(WithMargin(config.collision, config.operator_margin_m), config_.footprint);
-}
-
-/// The evidence is of what stays: somebody who has walked by is not to block the way for half a minute.
-void DriveController::AddSonar(const SonarCycle& cycle, const Pose2& odom_from_base) {
-  movers_.Add(cycle, odom_from_base);
-  approach_.Add(cycle, odom_from_base);
-  echoes_.Add(cycle, odom_from_base,
-              [this](const Eigen::Vector2d& odom) { return !HeedsMovers() || !movers_.IsOfMover(odom); });
 }
 
 PathVerdict DriveController::SetPath(const Path& path, Time now) {
@@ -132,10 +126,8 @@ std::optional<WheelSpeeds> DriveController::Step(const DriveSituation& situation
   if (!first_step_) first_step_ = now;
   const double dt_s = last_step_ ? std::clamp(Seconds(now - *last_step_), 1e-3, 0.1) : 0.02;
   last_step_ = now;
-  if (echoes_.newest()) sonar_heard_ = echoes_.newest();
-  echoes_.Forget(situation.odom_from_base, now, HasPathToGo());
-  floor_.Forget(situation.odom_from_base, now);
-  hanging_.Forget(situation.odom_from_base, now);
+  if (surroundings_.heard()) sonar_heard_ = surroundings_.heard();
+  surroundings_.Forget(situation.odom_from_base, now, HasPathToGo());
   authority_.Tick(now, HasPathToGo());
   if (authority_.holder().driver != Driver::kPlanner && !authority_.lease_lost()) DropPath();
   NoteTouch(situation, now);
@@ -160,21 +152,10 @@ std::optional<WheelSpeeds> DriveController::Step(const DriveSituation& situation
   return wheels;
 }
 
-DriveController::Obstacles DriveController::Around(const Pose2& odom_from_base) const {
-  Obstacles around{echoes_.Points(odom_from_base), echoes_.Remembered(odom_from_base)};
-  const auto add = [&](const std::vector<Eigen::Vector2d>& points) {
-    around.seen.insert(around.seen.end(), points.begin(), points.end());
-  };
-  around.placed = floor_.Points(odom_from_base);
-  const std::vector<Eigen::Vector2d> hanging = hanging_.Points(odom_from_base);
-  around.placed.insert(around.placed.end(), hanging.begin(), hanging.end());
-  if (IsRough()) add(echoes_.Bridges(odom_from_base));
-  if (HeedsMovers()) {
-    const std::vector<Eigen::Vector2d> coming = movers_.Points(odom_from_base);
-    around.placed.insert(around.placed.end(), coming.begin(), coming.end());
-  }
-  add(around.placed);
-  add(touch_.Points(odom_from_base));
+Obstacles DriveController::Around(const Pose2& odom_from_base) const {
+  Obstacles around = surroundings_.Around(odom_from_base, IsRough(), HeedsMovers());
+  const std::vector<Eigen::Vector2d> touched = touch_.Points(odom_from_base);
+  around.seen.insert(around.seen.end(), touched.begin(), touched.end());
   return around;
 }
 
@@ -255,6 +236,7 @@ Twist2 DriveController::WantedByPath(const DriveSituation& situation, const Obst
   // What lasts too short to stop a drive is enough not to begin one.
   if (path_is_new_ && !IsLost(situation)) {
     BeginPath(situation);
+    progress_.Reset();
     path_is_new_ = false;
     state_.mode = DriveMode::kFollowing;
   }
@@ -268,14 +250,15 @@ Twist2 DriveController::WantedByPath(const DriveSituation& situation, const Obst
   if (wanted.arrived) state_.mode = DriveMode::kArrived;
   if (HeedsMovers() && StandsForMover(situation, now)) return {};
   if (!InCorridor() || wanted.arrived) return wanted.twist;
-  return corridor_.MakeRoom(movers_, wanted, situation.odom_from_base, now).value_or(wanted.twist);
+  return corridor_.MakeRoom(surroundings_.movers(), wanted, situation.odom_from_base, now)
+      .value_or(wanted.twist);
 }
 
 bool DriveController::StandsForMover(const DriveSituation& situation, Time now) {
   const Twist2& driven = situation.estimate->twist;
   const Eigen::Vector2d velocity(driven.vx, driven.vy);
-  const bool about_to_meet = approach_.Meets(velocity, meeting_.within_s()) ||
-                             movers_.IsAboutToMeet(situation.odom_from_base, velocity, meeting_.within_s());
+  const bool about_to_meet =
+      surroundings_.IsAboutToMeet(situation.odom_from_base, velocity, meeting_.within_s());
   stands_for_comer_ = meeting_.Stands(about_to_meet, now);
   return stands_for_comer_;
 }
@@ -309,14 +292,9 @@ void DriveController::KeepCentred(const DriveSituation& situation, Time now) {
   follower_.Realign(centred.path, centred.start);
 }
 
-/// What a path is to be led around. What stops the base is among it also before there is evidence.
 std::vector<Eigen::Vector2d> DriveController::ThingsInMap(const DriveSituation& situation,
                                                           const Obstacles& around, Time now) const {
-  std::vector<Eigen::Vector2d> things = echoes_.Evidence(situation.odom_from_base, now);
-  things.insert(things.end(), around.remembered.begin(), around.remembered.end());
-  std::copy_if(around.seen.begin(), around.seen.end(), std::back_inserter(things),
-               [&](const Eigen::Vector2d& p) { return config_.footprint.Distance(p) < kBeside; });
-  things.insert(things.end(), around.placed.begin(), around.placed.end());
+  std::vector<Eigen::Vector2d> things = surroundings_.ToLeadAround(around, situation.odom_from_base, now);
   for (Eigen::Vector2d& thing : things) thing = situation.estimate->pose * thing;
   return things;
 }
@@ -374,18 +352,19 @@ void DriveController::NoteBlocked(const Twist2& wanted, const Twist2& given, Tim
 }
 
 /// A base that gets nowhere because its follower finds no way around what is there, or because somebody is
-/// about to walk into it again and again, wants no motion that the collision stop could limit.
+/// about to walk into it again and again, wants no motion that the collision stop could limit. What is near
+/// is to be told where the path goes on: the base may be going back just now.
 void DriveController::NoteWaiting(const DriveSituation& situation, const Obstacles& around, Time now) {
-  constexpr Twist2 kAhead{0.1, 0, 0};
   const bool on_its_way = state_.mode == DriveMode::kFollowing || state_.mode == DriveMode::kBlocked;
   if (!on_its_way || !follower_.has_path() || state_.failsafe.action != FailsafeAction::kNone)
-    return standstill_.Reset();
-  const double after_s = std::max(config_.waits_s, config_.blocked_s);
-  if (standstill_.Stays(situation.odom_from_base, now) <= FromSeconds(after_s)) return;
+    return progress_.Reset();
+  if (!progress_.GetsNowhere(situation.odom_from_base, follower_.LengthLeft(), now)) return;
   state_.mode = DriveMode::kBlocked;
   state_.slowed_by_sonar = true;
   state_.allowed = 0;
-  if (!state_.nearest) state_.nearest = Guard().Limit(kAhead, around.seen, around.remembered).nearest;
+  const auto ahead =
+      Guard().Limit(follower_.Onward(situation.estimate->pose), around.seen, around.remembered).nearest;
+  if (ahead) state_.nearest = ahead;
 }
 
 /// A base that stands, on its way or without one, or goes the other way, has touched nothing: somebody came
@@ -397,7 +376,7 @@ void DriveController::NoteTouch(const DriveSituation& situation, Time now) {
   const auto touch = touch_.Update(situation.odom_from_base, now, motion);
   if (touch) state_.touch = touch;
   const bool stands = motion && SpeedOf(*motion) < kStanding;
-  const bool may_touch = stands && (!HasPathToGo() || HeedsMovers()) && approach_.MayTouch();
+  const bool may_touch = stands && (!HasPathToGo() || HeedsMovers()) && surroundings_.approach().MayTouch();
   if (!touch_.pressed() && !may_touch) bumped_since_.reset();
   if ((touch && touch->came) || (may_touch && !bumped_since_)) bumped_since_ = now;
   if (bumped_since_) bumped_ = now;

@@ -10,17 +10,13 @@
 #include "robot/core/motion/deflection.hpp"
 #include "robot/core/motion/drive_config.hpp"
 #include "robot/core/motion/path_follower.hpp"
-#include "robot/core/motion/standstill.hpp"
+#include "robot/core/motion/progress_watch.hpp"
+#include "robot/core/motion/surroundings.hpp"
 #include "robot/core/pose/pose_estimator.hpp"
 #include "robot/core/safety/authority.hpp"
 #include "robot/core/safety/collision_stop.hpp"
 #include "robot/core/safety/failsafe.hpp"
 #include "robot/core/safety/touch_watch.hpp"
-#include "robot/core/sonar/approach_watch.hpp"
-#include "robot/core/sonar/echo_memory.hpp"
-#include "robot/core/sonar/floor_memory.hpp"
-#include "robot/core/sonar/hanging_memory.hpp"
-#include "robot/core/sonar/mover_watch.hpp"
 
 namespace priamos::robot {
 
@@ -95,14 +91,16 @@ class DriveController {
   /// Takes a line of the laser; returns false when FloorMemory refused it. `odom_from_base`: pose when the
   /// picture was taken.
   bool AddFloorLine(const FloorLine& line, const Pose2& odom_from_base, Time now) {
-    return floor_.Add(line, odom_from_base, now);
+    return surroundings_.AddFloorLine(line, odom_from_base, now);
   }
   /// Takes a thing that the head saw. `odom_from_map`: as it is known now.
   void AddSeenThing(const SeenThing& thing, const Pose2& odom_from_map) {
-    hanging_.Take(thing, odom_from_map);
+    surroundings_.AddSeenThing(thing, odom_from_map);
   }
   /// Takes a cycle of the sonars. `odom_from_base`: pose when the cycle ended.
-  void AddSonar(const SonarCycle& cycle, const Pose2& odom_from_base);
+  void AddSonar(const SonarCycle& cycle, const Pose2& odom_from_base) {
+    surroundings_.AddSonar(cycle, odom_from_base, HeedsMovers());
+  }
 
   /// Takes a piece of wall that was found or has grown: a centred path is led by them.
   void AddWall(int number, const WallPiece& piece) { corridor_.Note(number, piece); }
@@ -115,13 +113,6 @@ class DriveController {
   const DriveState& state() const { return state_; }
 
  private:
-  /// The obstacles that limit the motion, base frame [m].
-  struct Obstacles {
-    std::vector<Eigen::Vector2d> seen, remembered;
-    /// Of `seen`, places that are known well enough to plan with from afar: before who comes, and on the
-    /// floor, and hanging.
-    std::vector<Eigen::Vector2d> placed{};
-  };
   const CollisionStop& Guard() const;
   bool IsRough() const;
   bool HasPathToGo() const;
@@ -159,13 +150,9 @@ class DriveController {
   PathFollower follower_;
   CorridorDrive corridor_;
   TwistSlew slew_, operator_slew_, brake_;
-  EchoMemory echoes_;
-  FloorMemory floor_;
-  HangingMemory hanging_;
-  MoverWatch movers_;
-  ApproachWatch approach_;
+  Surroundings surroundings_;
   MeetingStop meeting_;
-  Standstill standstill_;
+  ProgressWatch progress_;
   CollisionStop collision_, rough_collision_;
   TouchWatch touch_;
   Authority authority_;

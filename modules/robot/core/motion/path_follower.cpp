@@ -88,6 +88,13 @@ void PathFollower::Drop() {
   arrived_ = false;
 }
 
+Twist2 PathFollower::Onward(const Pose2& pose) const {
+  constexpr double kSlow = 0.1;  // [m/s]
+  const PathShape::Point here = shape_->At(s_);
+  const Eigen::Vector2d velocity = Pose2{0, 0, -pose.yaw} * Eigen::Vector2d(kSlow * here.direction);
+  return {velocity.x(), velocity.y(), kSlow * here.turn};
+}
+
 PathFollower::Wanted PathFollower::Step(const Pose2& pose, const Twist2& twist, double age_s, double dt_s) {
   if (!shape_) return {};
   // Act on where the base will be when the wheels obey.

@@ -70,6 +70,12 @@ class PathFollower {
     return shape_->RemainingDistance(shape_->Project(pose, s_));
   }
 
+  /// Length [m] left of the path that is being driven, its turns included.
+  double LengthLeft() const { return shape_->length() - s_; }
+  /// A slow motion of a base at `pose` along the path that is being driven, without any way around things,
+  /// base frame.
+  Twist2 Onward(const Pose2& pose) const;
+
   /// Computes the wanted velocity. `pose` and `twist` are the newest estimate, `age_s` its age, `dt_s` the
   /// time since the last call. Once arrived it stays arrived until the next path, whatever corrections come.
   Wanted Step(const Pose2& pose, const Twist2& twist, double age_s, double dt_s);

@@ -288,6 +288,18 @@ TEST(GotoMissionTest, WhatStandsAtTheGoalLetsTheBaseComeBesideIt) {
   EXPECT_TRUE(s.robot.paths.back().points.empty()) << "nothing is left to be driven";
 }
 
+TEST(GotoMissionTest, AGoalThatAThingOfTheMapTakesIsReachedBesideIt) {
+  Story s({4.4, 2.4, 0});
+  auto learned = std::make_shared<LearnedWalls>();
+  learned->objects = {BoxAt(5.05, 2.4, 0)};
+  learned->objects[0].looks = 3;
+  s.dut.OnLearned(learned);
+  s.Start({{4.6, 2.4, 0}});
+  s.robot.RunFor(5);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone);
+  EXPECT_THAT(s.dut.state().text, AllOf(HasSubstr("m beside (4.60, 2.40): "), HasSubstr("seen by the head")));
+}
+
 TEST(GotoMissionTest, FartherFromTheGoalItFails) {
   Story s;
   s.Start({{4.6, 2.4, 0}, false});
