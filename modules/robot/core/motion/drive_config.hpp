@@ -43,7 +43,7 @@ struct DriveConfig {
   double lost_yaw_deg = 12;
   double blocked_s = 0.5;
   double waits_s = 3;          ///< standing on its way for so long: something closes the way
-  double no_nearer_s = 15;     ///< moving for so long and no nearer to the end of the path: the same
+  double no_nearer_s = 10;     ///< moving for so long and no nearer to the end of the path: the same
   double fix_needed_m = 0.25;  ///< sigma beyond which a silent head matters
 
   void Describe(Archive& a);

@@ -96,14 +96,15 @@ class Renderer::Impl {
     const Eigen::Isometry3d map_from_camera = Lift(middle.map_from_base) * middle_camera.base_from_camera;
     scene_.SortFrom(map_from_camera.translation());
     Collect(camera, opening, closing, exposure);
+    const LensMap& lens = lenses_.Of(middle_camera, config_.imaging.vignetting);
     const double px_per_dioptre = config_.imaging.defocus_px * middle_camera.focal_px / 1000;
     const double focus = middle_camera.focus_dioptre + exposure.defocus_dioptre;
     if (config_.imaging.focus_by_distance && !reference_) {
       const cv::Mat defocus = px_per_dioptre * (focus - Dioptres(map_from_camera, middle_camera));
-      return FormImage(config_.imaging, middle_camera, defocus, light_, exposure, rng);
+      return FormImage(config_.imaging, lens, defocus, light_, exposure, rng);
     }
     const double defocus = px_per_dioptre * (focus - SceneDioptre(map_from_camera));
-    return FormImage(config_.imaging, middle_camera, defocus, light_, exposure, rng);
+    return FormImage(config_.imaging, lens, defocus, light_, exposure, rng);
   }
 
   const RendererConfig& config() const { return config_; }
@@ -214,7 +215,8 @@ class Renderer::Impl {
   Mesh room_;
   std::vector<Mesh> parts_;  ///< meshes of solids_
   Mesh mesh_;                ///< room, parts and reference object together
-  cv::Mat light_;            ///< sum of the sub-exposures on the fine grid
+  LensMaps lenses_;
+  cv::Mat light_;  ///< sum of the sub-exposures on the fine grid
 };
 
 Renderer::Renderer(const RendererConfig& config, const std::vector<Solid>& solids, std::uint64_t seed)

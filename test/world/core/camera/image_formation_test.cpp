@@ -39,6 +39,11 @@ Statistics Middle(const GreyImage& image) {
   return {sum / n, std::sqrt(squares / n - sum * sum / n / n)};
 }
 
+GreyImage Formed(const ImagingConfig& config, const TrueCamera& camera, double defocus_px,
+                 const cv::Mat& light, const Exposure& exposure, Rng& rng) {
+  return FormImage(config, LensMap(camera, config.vignetting), defocus_px, light, exposure, rng);
+}
+
 TEST(SubSample, HasEveryColumnAndRowOnce) {
   for (int n = 1; n <= 16; ++n) {
     std::set<double> columns, rows;
@@ -55,12 +60,12 @@ TEST(SubSample, HasEveryColumnAndRowOnce) {
 TEST(FormImage, LevelsFollowLightExposureAndGain) {
   Rng rng(1);
   const ImagingConfig config = Noiseless();
-  EXPECT_EQ(At(FormImage(config, {}, 0, EvenLight(0), {}, rng), 100, 100), 8) << "black level";
-  EXPECT_EQ(At(FormImage(config, {}, 0, EvenLight(1), {}, rng), 384, 288), 230) << "white level";
-  EXPECT_EQ(At(FormImage(config, {}, 0, EvenLight(0.4F), {0.005, 1, 0}, rng), 384, 288), 52)
+  EXPECT_EQ(At(Formed(config, {}, 0, EvenLight(0), {}, rng), 100, 100), 8) << "black level";
+  EXPECT_EQ(At(Formed(config, {}, 0, EvenLight(1), {}, rng), 384, 288), 230) << "white level";
+  EXPECT_EQ(At(Formed(config, {}, 0, EvenLight(0.4F), {0.005, 1, 0}, rng), 384, 288), 52)
       << "8 + 222 * 0.4 / 2";
-  EXPECT_EQ(At(FormImage(config, {}, 0, EvenLight(0.4F), {0.005, 2, 0}, rng), 384, 288), 97);
-  EXPECT_EQ(At(FormImage(config, {}, 0, EvenLight(3), {}, rng), 384, 288), 255) << "saturated";
+  EXPECT_EQ(At(Formed(config, {}, 0, EvenLight(0.4F), {0.005, 2, 0}, rng), 384, 288), 97);
+  EXPECT_EQ(At(Formed(config, {}, 0, EvenLight(3), {}, rng), 384, 288), 255) << "saturated";
 }
 
 TEST(FormImage, NoiseHasTheStatedSigma) {
@@ -68,10 +73,10 @@ TEST(FormImage, NoiseHasTheStatedSigma) {
   config.read_noise = 2;
   config.photon_noise = 0.03;
   Rng rng(5);
-  const Statistics dark = Middle(FormImage(config, {}, 0, EvenLight(0.1F), {}, rng));
+  const Statistics dark = Middle(Formed(config, {}, 0, EvenLight(0.1F), {}, rng));
   EXPECT_NEAR(dark.mean, 8 + 22.2, 0.1);
   EXPECT_NEAR(dark.sigma, std::sqrt(4 + 0.03 * 22.2 + 1 / 12.0), 0.03);
-  const Statistics bright = Middle(FormImage(config, {}, 0, EvenLight(0.4F), {0.010, 2, 0}, rng));
+  const Statistics bright = Middle(Formed(config, {}, 0, EvenLight(0.4F), {0.010, 2, 0}, rng));
   EXPECT_NEAR(bright.sigma, std::sqrt(4 * 4 + 2 * 0.03 * 177.6 + 1 / 12.0), 0.05);
 }
 
@@ -81,7 +86,7 @@ TEST(FormImage, CornersAreDarkerByTheVignetting) {
   Rng rng(1);
   TrueCamera camera;
   camera.focal_px = 800;
-  const GreyImage image = FormImage(config, camera, 0, EvenLight(1), {}, rng);
+  const GreyImage image = Formed(config, camera, 0, EvenLight(1), {}, rng);
   EXPECT_NEAR((At(image, 0, 0) - 8) / 222.0, 0.75, 0.01);
   EXPECT_NEAR(At(image, 384, 288), 230, 1);
 }
@@ -119,7 +124,7 @@ TEST(FormImage, TheLensDistortsAsTheCameraSays) {
     camera.k1 = rng.Uniform(-0.08, 0.04);
     camera.k2 = rng.Uniform(-0.01, 0.02);
     const Vector2d seen(rng.Uniform(10, 757), rng.Uniform(10, 565));
-    const GreyImage image = FormImage(Noiseless(), camera, 0, Spot(camera.Undistort(seen)), {}, rng);
+    const GreyImage image = Formed(Noiseless(), camera, 0, Spot(camera.Undistort(seen)), {}, rng);
     EXPECT_LT((Centroid(image) - seen).norm(), 0.03);
   }
 }
@@ -127,7 +132,7 @@ TEST(FormImage, TheLensDistortsAsTheCameraSays) {
 TEST(FormImage, DefocusWidensASpot) {
   Rng rng(1);
   const auto peak = [&](double defocus) {
-    return At(FormImage(Noiseless(), {}, defocus, Spot({300, 200}), {}, rng), 300, 200);
+    return At(Formed(Noiseless(), {}, defocus, Spot({300, 200}), {}, rng), 300, 200);
   };
   EXPECT_GT(peak(0), 2 * peak(1.5));
 }
