@@ -12,34 +12,27 @@ namespace {
 constexpr double kCornerRadius2 = 0.36;  // (480 px / 800 px)^2
 constexpr std::size_t kMostMaps = 6;
 
-/// Functions of the distorted radius, tabulated over its square: how far to stretch to undo the distortion,
-/// and how much light is left.
-class LensTable {
+/// Undistorted places of the pixels: of every fourth one in every fourth line by the lens, between them along
+/// straight lines. With a distortion of k1 = -0.1 at 900 px these leave the lens by 5e-4 px at most.
+class UndistortedPlaces {
  public:
-  LensTable(const TrueCamera& camera, double vignetting) {
-    const double loss = (1 / std::sqrt(1 - vignetting) - 1) / kCornerRadius2;
-    const double largest = 2 * std::max(kImageWidth_px, kImageHeight_px) / camera.focal_px;
-    step_ = largest * largest / (kEntries - 2);
-    for (int i = 0; i < kEntries; ++i) {
-      const double r2 = i * step_, r = std::sqrt(r2);
-      const Eigen::Vector2d from = camera.centre_px + Eigen::Vector2d(r * camera.focal_px, 0);
-      const double undistorted = (camera.UndistortRadially(from) - camera.centre_px).norm();
-      stretch_[i] = r > 0 ? undistorted / (r * camera.focal_px) : 1;
-      light_[i] = 1 / ((1 + loss * r2) * (1 + loss * r2));
-    }
+  explicit UndistortedPlaces(const TrueCamera& camera) {
+    places_.reserve(std::size_t(kColumns) * kRows);
+    for (int row = 0; row < kRows; ++row)
+      for (int column = 0; column < kColumns; ++column)
+        places_.push_back(camera.Undistort(kStep * Eigen::Vector2d(column, row)));
   }
-  double Stretch(double r2) const { return Interpolate(stretch_, r2); }
-  double Light(double r2) const { return Interpolate(light_, r2); }
+  Eigen::Vector2d At(int u, int v) const {
+    const Eigen::Vector2d* upper = &places_[v / kStep * kColumns + u / kStep];
+    const Eigen::Vector2d* lower = upper + kColumns;
+    const double a = u % kStep / double{kStep}, b = v % kStep / double{kStep};
+    return (1 - b) * ((1 - a) * upper[0] + a * upper[1]) + b * ((1 - a) * lower[0] + a * lower[1]);
+  }
 
  private:
-  static constexpr int kEntries = 4096;
-  double Interpolate(const std::array<double, kEntries>& table, double r2) const {
-    const double place = std::min(r2 / step_, kEntries - 2.0);
-    const int i = static_cast<int>(place);
-    return table[i] + (place - i) * (table[i + 1] - table[i]);
-  }
-  double step_;
-  std::array<double, kEntries> stretch_, light_;
+  static constexpr int kStep = 4;
+  static constexpr int kColumns = kImageWidth_px / kStep + 1, kRows = kImageHeight_px / kStep + 1;
+  std::vector<Eigen::Vector2d> places_;
 };
 
 LensMap::Pixel Between(const Eigen::Vector2d& cell, double light) {
@@ -52,16 +45,15 @@ LensMap::Pixel Between(const Eigen::Vector2d& cell, double light) {
 }  // namespace
 
 LensMap::LensMap(const TrueCamera& camera, double vignetting) : camera_(camera), vignetting_(vignetting) {
-  const LensTable lens(camera, vignetting);
-  const bool tangential = camera.p1 != 0 || camera.p2 != 0;  // no longer a function of the radius alone
+  const UndistortedPlaces undistorted(camera);
+  const double loss = (1 / std::sqrt(1 - vignetting) - 1) / kCornerRadius2;
   pixels_.reserve(std::size_t(kImageWidth_px) * kImageHeight_px);
   for (int v = 0; v < kImageHeight_px; ++v) {
     for (int u = 0; u < kImageWidth_px; ++u) {
-      const Eigen::Vector2d from_centre = Eigen::Vector2d(u, v) - camera.centre_px;
-      const double r2 = from_centre.squaredNorm() / (camera.focal_px * camera.focal_px);
-      const Eigen::Vector2d undistorted =
-          tangential ? camera.Undistort({u, v}) : camera.centre_px + from_centre * lens.Stretch(r2);
-      pixels_.push_back(Between(FineGrid::FromImage(undistorted), lens.Light(r2)));
+      const double r2 =
+          (Eigen::Vector2d(u, v) - camera.centre_px).squaredNorm() / (camera.focal_px * camera.focal_px);
+      const double light = 1 / ((1 + loss * r2) * (1 + loss * r2));
+      pixels_.push_back(Between(FineGrid::FromImage(undistorted.At(u, v)), light));
     }
   }
 }

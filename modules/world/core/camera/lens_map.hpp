@@ -7,8 +7,8 @@
 
 namespace priamos::world {
 
-/// Where every pixel of a camera looks on the fine grid, and how much light its lens leaves there. It takes
-/// longer to make than a picture does, and stays the same while zoom and focus stand.
+/// Where every pixel of a camera looks on the fine grid, and how much light its lens leaves there. It stays
+/// the same while zoom and focus stand.
 class LensMap {
  public:
   /// Four neighbouring cells of the fine grid and the place between them.

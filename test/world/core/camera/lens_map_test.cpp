@@ -24,10 +24,10 @@ TEST(LensMap, EveryPixelLooksWhereTheLensBendsItsRay) {
   for (const double p1 : {0.0, 1e-3}) {
     const TrueCamera camera = Bent(900, p1);
     const LensMap dut(camera, 0.25);
-    for (const int v : {0, 288, 575}) {
-      for (const int u : {0, 100, 383, 767}) {
+    for (const int v : {0, 2, 287, 575}) {
+      for (const int u : {0, 101, 383, 767}) {
         const Eigen::Vector2d expected = FineGrid::FromImage(camera.Undistort(Eigen::Vector2d(u, v)));
-        EXPECT_LT((PlaceOf(dut.pixels().at(v * kImageWidth_px + u)) - expected).norm(), 1e-3)
+        EXPECT_LT((PlaceOf(dut.pixels().at(v * kImageWidth_px + u)) - expected).norm(), 2e-3)
             << u << " " << v;
       }
     }
