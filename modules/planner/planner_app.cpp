@@ -18,6 +18,7 @@ PlannerApp::PlannerApp(const PlannerConfig& config, bus::Context& context, Missi
       missions_(missions(config, plan_)),
       map_(config, context),
       router_(MakeRouter(config, plan_)),
+      models_(FromSeconds(config.model_period_s)),
       agenda_(MakeAgenda(config, missions_, router_)),
       orders_(context.node().SubscribeAll(channels::kMissionCommand)),
       poses_(context.node().Subscribe(channels::kPose)),
@@ -82,7 +83,7 @@ void PlannerApp::TakeReports(Time now) {
   for (const auto& leaf : leaves_.Drain()) missions_.OnLeaf(FromMessage(leaf));
   for (const auto& fix : fixes_.Drain()) {
     if (const auto failure = FromMessage(fix)) missions_.OnLook(*failure);
-    if (fix.verdict == landmark_fix_t::NO_MODEL) TeachLandmark(fix.landmark_id);
+    if (fix.verdict == landmark_fix_t::NO_MODEL) TeachLandmark(fix.landmark_id, now);
   }
   for (const auto& correction : corrections_.Drain()) {
     missions_.OnLook(FromMessage(correction));
@@ -92,14 +93,16 @@ void PlannerApp::TakeReports(Time now) {
   }
 }
 
-/// Sends the head the model of a landmark, because somebody else has it look there. A mission sends its own.
-void PlannerApp::TeachLandmark(int id) {
+/// Somebody else than a mission, which sends its own, has the head look at a landmark of which it has no
+/// model.
+void PlannerApp::TeachLandmark(int id, Time now) {
   if (agenda_.running()) return;
-  if (const auto landmark = MakeLandmark(plan_, id)) model_.Publish(ToMessage(*landmark));
+  if (auto landmark = MakeLandmark(plan_, id)) models_.Want(std::move(*landmark), now);
 }
 
 void PlannerApp::Send(const MissionActions& actions, Time now) {
-  if (actions.model) model_.Publish(ToMessage(*actions.model));
+  if (actions.model) models_.Want(*actions.model, now);
+  if (const auto model = models_.Next(now)) model_.Publish(ToMessage(*model));
   if (actions.faces) walls_.Publish(ToMessage(*actions.faces, plan_.wall_sigma_m));
   if (actions.path) path_.Publish(ToMessage(*actions.path, now));
   if (actions.look) look_.Publish(ToMessage(*actions.look, now));

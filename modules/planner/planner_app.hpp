@@ -5,6 +5,7 @@
 #include "bus/context.hpp"
 #include "common/rate_limit.hpp"
 #include "lcmtypes/channels.hpp"
+#include "planner/core/missions/model_queue.hpp"
 #include "planner/floor_report.hpp"
 #include "planner/map_keeper.hpp"
 #include "planner/planner_config.hpp"
@@ -39,7 +40,7 @@ class PlannerApp {
   void Send(const MissionActions& actions, Time now);
   void SendStatus(Time now);
   void SendEnds(Time now);
-  void TeachLandmark(int id);
+  void TeachLandmark(int id, Time now);
 
   PlannerConfig config_;
   bus::Context& context_;
@@ -47,6 +48,7 @@ class PlannerApp {
   MissionTable missions_;
   MapKeeper map_;
   DoorRouter router_;
+  ModelQueue models_;
   Agenda agenda_;
 
   bus::Inbox<mission_command_t> orders_;

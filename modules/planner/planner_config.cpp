@@ -9,6 +9,8 @@ void PlannerConfig::Describe(Archive& a) {
       "file of walls that robots found, relative likewise; empty: they are forgotten when the planner ends");
   a.Number("rate_hz", rate_hz, {"Hz", 1, 100, "decisions"});
   a.Number("status_rate_hz", status_rate_hz, {"Hz", 0.2, 20, "MISSION_STATUS while nothing changes"});
+  a.Number("model_period_s", model_period_s,
+           {"s", 0, 600, "between two LANDMARK_MODELs: what link.toml has room for"});
   a.Section("footprint", footprint, "the robot's body");
   a.Section("passage", passage, "paths to a door and through it");
   a.Section("mission", mission, "how the mission through a door goes");

@@ -22,6 +22,7 @@ struct PlannerConfig {
   std::string learned_map;             ///< file of what was learned; empty: forgotten when the planner ends
   double rate_hz = 20;                 ///< decisions
   double status_rate_hz = 2;           ///< MISSION_STATUS while nothing changes
+  double model_period_s = 10;          ///< between two LANDMARK_MODELs, as in link.toml
   Footprint footprint;
   DoorPlannerConfig passage;
   DoorMissionConfig mission;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -15,9 +16,10 @@ struct PoseKeeperConfig {
   double sigma_m = 0.08;         ///< asked for above this standard deviation of the position
   double nearest_m = 1.2;        ///< distance to the door ...
   double farthest_m = 3.4;       ///< ... at which it is looked at
-  double most_slant_deg = 40;    ///< angle between its axis and the line to the robot
+  double most_slant_deg = 65;    ///< angle between its axis and the line to the robot
   double most_bearing_deg = 95;  ///< angle between the base's heading and the line to the door
   double pause_s = 10;           ///< after looks that failed
+  double teach_m = 8;            ///< distance to doors ahead of which the head is sent a model
 
   void Describe(Archive& a);
 };
@@ -38,6 +40,9 @@ class PoseKeeper {
 
  private:
   bool IsNeeded(const MissionControl& control) const;
+  void Teach(MissionControl& control);
+  void Forgot(int door_id);
+  const DoorPlan* NearestUntaught(const Pose2& map_from_base) const;
 
   PoseKeeperConfig config_;
   GroundPlan plan_;
@@ -45,6 +50,8 @@ class PoseKeeper {
   LookSequence looks_;
   const DoorPlan* door_ = nullptr;  ///< looked at last
   std::optional<Time> gave_up_;
+  std::map<int, Time> taught_;  ///< when the head was sent the model of a door
+  Time next_lesson_{};
 };
 
 }  // namespace priamos::planner

@@ -21,7 +21,8 @@ TEST(PoseKeeperTest, ADoorIsInSightFromItsFrontAtTheRightDistance) {
   EXPECT_TRUE(InSight({3.5, 3.5, 0}));
   EXPECT_FALSE(InSight({2.4, 2.4, 0})) << "too far";
   EXPECT_FALSE(InSight({5.0, 2.4, 0})) << "too near";
-  EXPECT_FALSE(InSight({5.0, 4.2, 0})) << "at a slant";
+  EXPECT_TRUE(InSight({5.0, 4.2, 0})) << "at a slant, as all doors of a corridor are";
+  EXPECT_FALSE(InSight({5.4, 4.2, 0})) << "hardly anything of it can be seen";
   ASSERT_TRUE(InSight({8.5, 2.4, kPi})) << "from behind it is another landmark";
   EXPECT_EQ(InSight({8.5, 2.4, kPi})->id, ShippedPlan().doors[0].behind_id);
 }
@@ -31,12 +32,12 @@ TEST(PoseKeeperTest, TheHeadTurnsSoFarAndNoFarther) {
   EXPECT_FALSE(InSight({3.5, 2.4, Radians(120)}));
 }
 
-/// A drive from (2.6, 2.4) to (4.2, 2.4) with a pose known to `sigma_m`.
+/// A drive from (0.8, 2.4) to (4.6, 2.4) with a pose known to `sigma_m`.
 struct Drive {
-  explicit Drive(double sigma_m) : robot(missions, {2.6, 2.4, 0}) {
+  explicit Drive(double sigma_m) : robot(missions, {0.8, 2.4, 0}) {
     missions.Add(2, std::make_unique<GotoMission>(GotoMissionConfig{}, Footprint{}, ShippedPlan()));
     robot.sigma_m = sigma_m;
-    missions.Start(robot.now(), {2, 0, {{4.2, 2.4, 0}}});
+    missions.Start(robot.now(), {2, 0, {{4.6, 2.4, 0}}});
   }
   MissionTable missions;
   FakeRobot robot;
@@ -47,7 +48,8 @@ TEST(PoseKeeperTest, AnUncertainPoseIsCorrectedOnTheWay) {
   drive.robot.error = {0.05, -0.1, 0};
   drive.robot.RunFor(60);
   EXPECT_EQ(drive.missions.state().phase, Phase::kDone) << drive.missions.state().text;
-  EXPECT_EQ(drive.robot.looks.size(), 2u) << "after them it is known well";
+  EXPECT_GE(drive.robot.looks.size(), 2u);
+  EXPECT_LE(drive.robot.looks.size(), 3u) << "after them it is known well";
   EXPECT_GT(drive.robot.look_speed_m_s.back(), 0.2) << "it does not stand for them";
   EXPECT_NEAR(drive.robot.truth().y, 2.4, 0.02);
 }
@@ -58,13 +60,24 @@ TEST(PoseKeeperTest, AKnownPoseIsLeftAlone) {
   EXPECT_TRUE(drive.robot.looks.empty());
 }
 
-TEST(PoseKeeperTest, AHeadWithoutTheModelGetsIt) {
+TEST(PoseKeeperTest, TheHeadGetsTheModelBeforeItLooks) {
+  Drive drive(0.12);
+  drive.robot.answer = [&](const LookOrder& look, int) {
+    EXPECT_EQ(drive.robot.models_received, 1);
+    return LookResult{look.request_id, true, "", false};
+  };
+  drive.robot.RunFor(60);
+  EXPECT_GE(drive.robot.looks.size(), 2u);
+  EXPECT_EQ(drive.robot.models_received, 1);
+}
+
+TEST(PoseKeeperTest, AHeadThatHasLostTheModelGetsItOnceMore) {
   Drive drive(0.12);
   drive.robot.answer = [&](const LookOrder& look, int n) {
     return LookResult{look.request_id, n > 0, "the head has no model of it", n == 0};
   };
   drive.robot.RunFor(60);
-  EXPECT_EQ(drive.robot.models_received, 1);
+  EXPECT_EQ(drive.robot.models_received, 2);
   EXPECT_GE(drive.robot.looks.size(), 2u);
 }
 
