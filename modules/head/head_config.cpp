@@ -5,7 +5,10 @@
 namespace priamos::head {
 
 void VisionConfig::Describe(Archive& a) {
-  a.Number("min_contrast", min_contrast, {"-", 1, 100, "weakest edge that is used [grey values]"});
+  a.Number("min_contrast", min_contrast,
+           {"-", 1, 100, "weakest edge that is used in a well exposed picture [grey values]"});
+  a.Number("usual_grey", usual_grey,
+           {"-", 0, 255, "mean grey value of such a picture; in darker ones weaker edges are used"});
   a.Number("min_edge_px", min_edge_px, {"px", 8, 200, "shortest edge that is used"});
   a.Number("model_sigma_m", model_sigma_m,
            {"m", 0.0001, 0.05, "how well landmark models are known, each edge and axis"});

@@ -21,7 +21,8 @@ namespace priamos::head {
 /// How a landmark is searched and when a fix is believed; the rest of LandmarkFixOptions follows from
 /// geometry.
 struct VisionConfig {
-  double min_contrast = 8;         ///< weakest edge [grey values]
+  double min_contrast = 8;         ///< weakest edge of a well exposed picture [grey values]
+  double usual_grey = 80;          ///< mean of such a picture; in darker ones weaker edges count
   double min_edge_px = 12;         ///< shortest edge
   double model_sigma_m = 0.005;    ///< how well landmark models are known, each edge and axis
   double breadth_sigma_m = 0.012;  ///< how well the breadth of a landmark is known

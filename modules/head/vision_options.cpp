@@ -19,6 +19,7 @@ LandmarkFixOptions FinderOptions(const VisionConfig& vision, const HeadModel& he
 EdgeOperator::Options EdgeOptions(const VisionConfig& vision) {
   EdgeOperator::Options options;
   options.min_contrast = vision.min_contrast;
+  options.usual_grey = vision.usual_grey;
   options.min_length_px = vision.min_edge_px;
   return options;
 }

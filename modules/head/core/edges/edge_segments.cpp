@@ -9,6 +9,15 @@ namespace {
 /// Sobel sum (of the smoothed image) that a step of one grey value gives.
 constexpr double kSobelPerGrey = 2.3;
 
+/// The settings for an image of this mean: all contrasts of a dark one are weaker.
+EdgeOperator::Options Exposed(const EdgeOperator::Options& usual, double mean_grey) {
+  EdgeOperator::Options options = usual;
+  if (mean_grey < usual.usual_grey)
+    options.min_contrast = std::max(std::min(kWeakestEdge, usual.min_contrast),
+                                    usual.min_contrast * mean_grey / usual.usual_grey);
+  return options;
+}
+
 /// Numbers of `lines`, the longest first.
 void SortByExtent(const std::vector<RoughLine>& lines, std::vector<std::pair<float, int>>& order) {
   order.clear();
@@ -43,7 +52,8 @@ void EdgeOperator::Extract(const cv::Mat& image, EdgeImage& out) {
     throw std::invalid_argument("the edge operator needs a grey image of 32x32 to 16384x16384 pixels");
   }
   gradients_.Compute(image);
-  tracer_.Trace(gradients_, TraceOptions(options_, gradients_.GradientNoise()), chains_);
+  const Options options = Exposed(options_, gradients_.mean_grey());
+  tracer_.Trace(gradients_, TraceOptions(options, gradients_.GradientNoise()), chains_);
   splitter_.Split(gradients_, chains_, options_.split, rough_);
 
   out.width = image.cols;
@@ -54,7 +64,7 @@ void EdgeOperator::Extract(const cv::Mat& image, EdgeImage& out) {
   out.segments.clear();
   out.points.clear();
   refiner_.SetImage(image, gradients_.noise_sigma());
-  const EdgeRefiner::Options refit = RefitOptions(options_);
+  const EdgeRefiner::Options refit = RefitOptions(options);
   // The longest first: they run on over their own broken pieces, which need not be looked at any more.
   SortByExtent(rough_, order_);
   found_.Clear(image.cols, image.rows);

@@ -14,6 +14,9 @@
 
 namespace priamos::head {
 
+/// Weaker edges tell no more, however dark the image [grey values].
+inline constexpr double kWeakestEdge = 3;
+
 /// The edge operator: Sobel gradients, linked pixels, straight pieces, sub-pixel refit, fusion of broken
 /// edges. Keeps its buffers, so one object per thread and camera size is fast.
 class EdgeOperator {
@@ -21,6 +24,8 @@ class EdgeOperator {
   /// Settings of the operator and of its steps.
   struct Options {
     double min_contrast = 10;    ///< weakest edge of a quiet image [grey values]
+    double usual_grey = 0;       ///< mean of a well exposed image; in darker ones weaker edges count, in
+                                 ///< proportion, down to kWeakestEdge; 0: in none
     double noise_factor = 2.36;  ///< a pixel is linked above so many standard deviations of the gradient
     double min_length_px = 12;   ///< shortest segment
     ChainSplitter::Options split;

@@ -6,8 +6,6 @@
 namespace priamos::head {
 namespace {
 
-constexpr double kCoarsest = 3;
-
 double Contrast(const cv::Mat& image) {
   cv::Scalar mean, sigma;
   cv::meanStdDev(image, mean, sigma);
@@ -22,7 +20,7 @@ std::vector<EdgeOperator::Options> ForOneScene(std::span<const cv::Mat> images,
   contrasts.reserve(images.size());
   for (const cv::Mat& image : images) contrasts.push_back(Contrast(image));
   const double largest = contrasts.empty() ? 0 : *std::max_element(contrasts.begin(), contrasts.end());
-  const double least = std::min(kCoarsest, usual.min_contrast);
+  const double least = std::min(kWeakestEdge, usual.min_contrast);
   std::vector<EdgeOperator::Options> all(images.size(), usual);
   for (std::size_t i = 0; i < all.size() && largest > 0; ++i)
     all[i].min_contrast = std::max(least, usual.min_contrast * contrasts[i] / largest);

@@ -187,5 +187,22 @@ TEST(EdgeOperatorTest, SameImageSameBytes) {
     EXPECT_EQ(first.segments[i].begin, second.segments[i].begin);
 }
 
+std::size_t Found(const EdgeOperator::Options& options, double dark, double bright) {
+  EdgeOperator dut(options);
+  EdgeImage edges;
+  dut.Extract(StepImage(100.3, 0.1, dark, bright), edges);
+  return edges.segments.size();
+}
+
+TEST(EdgeOperatorTest, InADarkImageWeakerEdgesCount) {
+  EdgeOperator::Options options;
+  options.min_contrast = 8;
+  EXPECT_EQ(Found(options, 20, 26), 0u);
+  options.usual_grey = 80;
+  EXPECT_EQ(Found(options, 20, 26), 1u) << "as an edge of 20 grey values under usual light";
+  EXPECT_EQ(Found(options, 100, 106), 0u) << "a well exposed image";
+  EXPECT_EQ(Found(options, 20, 22), 0u) << "never below 3 grey values";
+}
+
 }  // namespace
 }  // namespace priamos::head
