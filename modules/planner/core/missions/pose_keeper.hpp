@@ -31,6 +31,8 @@ class PoseKeeper {
   PoseKeeper(const PoseKeeperConfig& config, const GroundPlan& plan);
 
   void Reset();
+  /// Whether looks that are due, or soon will be, may yet make the pose better known where the robot is.
+  bool MayHelp(const MissionControl& control) const;
   /// One time step: takes the answers to looks, and asks for the next one when it is needed.
   void Step(MissionControl& control);
 

@@ -95,10 +95,9 @@ PathVerdict DriveController::SetPath(const Path& path, Time now) {
   state_.path_id = path.id;
   // An order to stand moves nothing: what the base touched is still to be told.
   if (!path.points.empty() || !IsContact(state_.halted_by)) state_.halted_by.reset();
-  if (path.points.empty()) {
-    follower_.Drop();
-    state_.mode = DriveMode::kHolding;
-  }
+  if (path.points.empty()) follower_.Drop();
+  // Also while something keeps the base from beginning: what it says is of this path from now on.
+  state_.mode = path.points.empty() ? DriveMode::kHolding : DriveMode::kFollowing;
   return PathVerdict::kTaken;
 }
 
@@ -131,6 +130,7 @@ std::optional<WheelSpeeds> DriveController::Step(const DriveSituation& situation
   authority_.Tick(now, HasPathToGo());
   if (authority_.holder().driver != Driver::kPlanner && !authority_.lease_lost()) DropPath();
   NoteTouch(situation, now);
+  if (path_is_new_ && situation.estimate) state_.remaining_m = LengthFrom(situation.estimate->pose, *path_);
   const DriveSource source = Source(now);
   state_.failsafe = Watch(situation, now);
   stands_for_comer_ = false;
@@ -233,12 +233,12 @@ Twist2 DriveController::WantedByPath(const DriveSituation& situation, const Obst
                                      double dt_s) {
   if (!situation.estimate) return {};
   const PoseEstimate& estimate = *situation.estimate;
-  // What lasts too short to stop a drive is enough not to begin one.
-  if (path_is_new_ && !IsLost(situation)) {
+  if (path_is_new_) {
+    // What lasts too short to stop a drive is enough not to begin one.
+    if (IsLost(situation)) return {};
     BeginPath(situation);
     progress_.Reset();
     path_is_new_ = false;
-    state_.mode = DriveMode::kFollowing;
   }
   if (!follower_.has_path()) return {};
   if (path_->centre) KeepCentred(situation, now);

@@ -19,6 +19,16 @@ bool SameCourse(const Path& a, const Path& b) {
          std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), same);
 }
 
+double LengthFrom(const Pose2& start, const Path& path) {
+  double length_m = 0;
+  Eigen::Vector2d from = start.translation();
+  for (const Pose2& point : path.points) {
+    length_m += (point.translation() - from).norm();
+    from = point.translation();
+  }
+  return length_m;
+}
+
 void PathShapeConfig::Describe(Archive& a) {
   a.Number("corner_deviation_m", corner_deviation_m, {"m", 0.001, 0.5, "a rounded corner passes beside it"});
   a.Number("corner_deviation_deg", corner_deviation_deg,

@@ -22,6 +22,8 @@ struct Path {
 
 /// Whether two orders are to drive the same path: number, speed and points.
 bool SameCourse(const Path& a, const Path& b);
+/// Length [m] of the straight lines from `start` over all points of a path.
+double LengthFrom(const Pose2& start, const Path& path);
 
 /// How a path is rounded, and how fast its parts may be driven.
 struct PathShapeConfig {

@@ -330,6 +330,25 @@ TEST(DriveController, WhoTouchesTheStandingBaseHoldsItAndItGoesOnWhenHeHasLeft) 
   EXPECT_GT(rig.base().twist().vx, 0.3);
 }
 
+TEST(DriveController, APathForABaseThatSomebodyTouchesBeginsWhenHeHasLeft) {
+  RobotRig rig(1, {0, 0, 0});
+  rig.SetPath({.id = 1, .speed_m_s = 0.4, .points = {{1, 0, 0}}});
+  rig.Run(8);
+  ASSERT_EQ(rig.state().mode, DriveMode::kArrived);
+  rig.drive().touch_watch().AddBumper(1, rig.now());
+  rig.Run(1);
+  EXPECT_EQ(rig.state().mode, DriveMode::kArrived);
+  rig.SetPath({.id = 2, .speed_m_s = 0.4, .points = {{3, 0, 0}}});
+  rig.Run(1);
+  EXPECT_EQ(rig.state().mode, DriveMode::kFollowing) << "it has not arrived at the end of the new one";
+  EXPECT_NEAR(rig.state().remaining_m, 2, 0.05);
+  EXPECT_TRUE(rig.state().bumped);
+  EXPECT_LT(rig.base().twist().vx, 1e-3);
+  rig.drive().touch_watch().AddBumper(0, rig.now());
+  rig.Run(4);
+  EXPECT_GT(rig.base().twist().vx, 0.3);
+}
+
 TEST(DriveController, GivesTheSameCommandsForTheSameInputs) {
   const auto commands = [] {
     RobotRig rig(5, {0, 0.1, 0.05}, {}, {}, BoxSides(-1, -1.2, 7, 1.2));
