@@ -34,7 +34,7 @@ std::string FingerprintOf(const HeadConfig& config, const ReferenceObject& objec
 
 bool HadLaser(const std::string& table) {
   try {
-    return LoadHeadModel(table).laser.has_value();
+    return !LoadHeadModel(table).lasers.empty();
   } catch (const ConfigError&) {
     return false;  // there was none, or none that could be read
   }
@@ -177,7 +177,7 @@ void CalibrationMode::Finish() {
   if (had_laser)
     context_.Log(
         bus::Level::kWarning,
-        "the laser's plane belonged to the old table: calibrate it anew (priamos calibrate --laser)");
+        "the planes of the lasers belonged to the old table: calibrate them anew (priamos calibrate --laser)");
   for (int camera = 0; camera < kCameras; ++camera)
     context_.Log(bus::Level::kInfo,
                  fmt::format("{} camera at pan 0, tilt {:.1f} deg, zoom {}, focus {}:\n{}",

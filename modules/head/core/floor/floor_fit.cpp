@@ -7,7 +7,8 @@
 namespace priamos::head {
 namespace {
 
-constexpr std::size_t kBlocks = 12;
+constexpr std::size_t kBlocks = 12;  ///< of a line
+constexpr double kMostVoices = 3;    ///< by which a short line may count more than it has points
 constexpr double kGate_m = 0.006;  ///< a block is on a floor or not
 constexpr double kPerGate = 1 / (kGate_m * kGate_m);
 constexpr double kFarthest = 16;    ///< squared Mahalanobis distance of a floor from the prior
@@ -21,8 +22,9 @@ struct Block {
   double n = 0;
 };
 
-std::vector<Block> MakeBlocks(std::span<const LightPoint> points) {
-  std::vector<Block> blocks;
+using Line = std::span<const LightPoint>;
+
+void AddBlocks(Line points, double weight, std::vector<Block>& blocks) {
   const std::size_t size = std::max<std::size_t>(1, (points.size() + kBlocks - 1) / kBlocks);
   std::vector<std::size_t> order;
   for (std::size_t first = 0; first < points.size(); first += size) {
@@ -32,7 +34,25 @@ std::vector<Block> MakeBlocks(std::span<const LightPoint> points) {
     const auto middle = order.begin() + static_cast<std::ptrdiff_t>(order.size() / 2);
     std::nth_element(order.begin(), middle, order.end(),
                      [&](std::size_t a, std::size_t b) { return points[a].at.z() < points[b].at.z(); });
-    blocks.push_back({points[*middle].at, static_cast<double>(last - first)});
+    blocks.push_back({points[*middle].at, weight * static_cast<double>(last - first)});
+  }
+}
+
+std::vector<Line> SplitLines(Line points) {
+  std::vector<Line> lines;
+  for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
+    while (end < points.size() && points[end].line == points[begin].line) ++end;
+    lines.push_back(points.subspan(begin, end - begin));
+  }
+  return lines;
+}
+
+std::vector<Block> MakeBlocks(std::span<const LightPoint> points) {
+  const std::vector<Line> lines = SplitLines(points);
+  std::vector<Block> blocks;
+  for (const Line& line : lines) {
+    const auto all = static_cast<double>(points.size()), own = static_cast<double>(line.size());
+    AddBlocks(line, std::min(kMostVoices, all / own / static_cast<double>(lines.size())), blocks);
   }
   return blocks;
 }

@@ -280,7 +280,7 @@ TEST_F(RendererTest, TheLaserLineIsWhereItsPlaneMeetsTheFloor) {
   at.head.tilt_rad = 0.45;
   const GreyImage image = Expose(at, kThirdCamera, {0.004, 1, 0, 3});
   const TrueCamera camera = CameraAt(config.head, kThirdCamera, at.head);
-  const double x = config.laser.x_m + config.laser.z_m / std::tan(config.laser.pitch_rad);
+  const double x = config.lasers[0].x_m + config.lasers[0].z_m / std::tan(config.lasers[0].pitch_rad);
   for (double y = -0.4; y < 0.41; y += 0.02) {
     const Vector2d place = camera.Project({x, y, 0});
     double weight = 0, moment = 0;
