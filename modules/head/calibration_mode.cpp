@@ -175,9 +175,9 @@ void CalibrationMode::Finish() {
   SaveHeadModel(table_path_, result->model);
   journal_.Remove();
   if (had_laser)
-    context_.Log(
-        bus::Level::kWarning,
-        "the planes of the lasers belonged to the old table: calibrate them anew (priamos calibrate --laser)");
+    context_.Log(bus::Level::kWarning,
+                 "the planes of the lasers belonged to the old table: calibrate them anew (priamos calibrate "
+                 "--laser)");
   for (int camera = 0; camera < kCameras; ++camera)
     context_.Log(bus::Level::kInfo,
                  fmt::format("{} camera at pan 0, tilt {:.1f} deg, zoom {}, focus {}:\n{}",

@@ -26,7 +26,8 @@ HeadSetting SettingOf(const LaserPicture& picture) {
 }
 
 /// The lines of a picture, that of the nearest laser first: it is the lowest. Empty where it has none.
-std::vector<std::vector<StripePoint>> LinesOf(const LaserPicture& picture, int lasers, const GreyImage& image) {
+std::vector<std::vector<StripePoint>> LinesOf(const LaserPicture& picture, int lasers,
+                                              const GreyImage& image) {
   StripeFinder finder;
   std::vector<std::vector<StripePoint>> lines(static_cast<std::size_t>(lasers));
   if (picture.line > 0) {
@@ -56,11 +57,12 @@ PictureViews ViewsOf(const LaserPicture& picture, int lasers, const std::string&
         {*camera, {picture.normal.normalized(), picture.board_m}, std::move(points), picture.error_m});
   }
   if (!any)
-    throw ConfigError(lasers == 1 || picture.line > 0
-                          ? fmt::format("{}: expected a line of laser light, got none", path)
-                          : fmt::format("{}: expected {} lines of laser light, one above the other, got fewer; "
-                                        "where it shows one of them, say which: line = 1 is the lowest",
-                                        path, lasers));
+    throw ConfigError(
+        lasers == 1 || picture.line > 0
+            ? fmt::format("{}: expected a line of laser light, got none", path)
+            : fmt::format("{}: expected {} lines of laser light, one above the other, got fewer; "
+                          "where it shows one of them, say which: line = 1 is the lowest",
+                          path, lasers));
   return result;
 }
 
@@ -118,7 +120,8 @@ void LaserPicture::Describe(Archive& a) {
   Vector(a, "board_m", board_m, {"m", -20, 20, "a point of the board in the base frame"});
   Vector(a, "normal", normal, {"-", -1e3, 1e3, "across the board, of any length"});
   a.Number("error_m", error_m, {"m", 0, 0.1, "how exactly the board stands there, across itself: 1 sigma"});
-  a.Integer("line", line, {"-", 0, kMostLasers, "the only line that it shows, from the nearest on the floor; 0: all"});
+  a.Integer("line", line,
+            {"-", 0, kMostLasers, "the only line that it shows, from the nearest on the floor; 0: all"});
   if (normal.norm() < 1e-6) a.Refuse("normal", "a direction that is not zero");
 }
 

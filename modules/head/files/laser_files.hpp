@@ -30,8 +30,8 @@ struct LaserPictures {
 };
 
 /// Work of `priamos calibrate --laser PICTURES --table TABLE`: reads pictures and table, fits the planes of
-/// light, writes them into the table (as a whole or not at all; to `output` if that is not empty) and describes
-/// them as JSON. Throws ConfigError with one sentence; then no file has changed.
+/// light, writes them into the table (as a whole or not at all; to `output` if that is not empty) and
+/// describes them as JSON. Throws ConfigError with one sentence; then no file has changed.
 OfflineReport CalibrateLaserFromFiles(const std::string& pictures, const std::string& table,
                                       const std::string& output);
 

@@ -253,33 +253,34 @@ void BenchLaser(const VisionOptions& options, Figures& figures) {
   figures.AtMost("  time of a frame with one line, CPU", 1000 * plain.seconds, 0.3, "ms");
   figures.AtMost("  and with two", 1000 * seconds_of_pair, 0.6, "ms");
   for (const Sizes& what : {Sizes{2.0, 0.03},
-                           {2.0, -0.03},
-                           {2.0, 0.02},
-                           {2.0, -0.02},
-                           {2.0, 0.05},
-                           {2.0, -0.05},
-                           {1.2, 0.03},
-                           {1.2, -0.03},
-                           {2.0, 0.03, true},
-                           {2.0, -0.03, true},
-                           {2.0, -0.05, true},
-                           {2.0, 0.03, true, kBoth},
-                           {2.0, -0.03, true, kBoth},
-                           {3.0, 0.03, true, kBoth},
-                           {3.0, -0.03, true, kBoth},
-                           {3.0, 0.03, true, kGlance},
-                           {3.0, -0.03, true, kGlance},
-                           {3.0, 0.03, false, kGlance},
-                           {3.0, -0.03, false, kGlance}}) {
+                            {2.0, -0.03},
+                            {2.0, 0.02},
+                            {2.0, -0.02},
+                            {2.0, 0.05},
+                            {2.0, -0.05},
+                            {1.2, 0.03},
+                            {1.2, -0.03},
+                            {2.0, 0.03, true},
+                            {2.0, -0.03, true},
+                            {2.0, -0.05, true},
+                            {2.0, 0.03, true, kBoth},
+                            {2.0, -0.03, true, kBoth},
+                            {3.0, 0.03, true, kBoth},
+                            {3.0, -0.03, true, kBoth},
+                            {3.0, 0.03, true, kGlance},
+                            {3.0, -0.03, true, kGlance},
+                            {3.0, 0.03, false, kGlance},
+                            {3.0, -0.03, false, kGlance}}) {
     double rms = 0;
     const double found =
         Found(what, 300 / scale, textures,
               Rng::Stream(options.seed, fmt::format("{} {}", what.distance_m, what.height_m)), rms);
     const bool pair = what.lines.tilt_rad == kBoth.tilt_rad, glance = what.lines.tilt_rad == kGlance.tilt_rad;
     const std::string name =
-        fmt::format("  {}{:.0f} cm {} at {:.1f} m, {}: found", pair     ? "two lines: "
-                                                               : glance ? "in a glance: "
-                                                                        : "",
+        fmt::format("  {}{:.0f} cm {} at {:.1f} m, {}: found",
+                    pair     ? "two lines: "
+                    : glance ? "in a glance: "
+                             : "",
                     100 * std::abs(what.height_m), what.height_m > 0 ? "up" : "down", what.distance_m,
                     what.whole ? "across all of the line" : "20 cm wide");
     if (std::abs(what.height_m) == 0.03 && (pair || !what.whole))

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kBlocks = 12;  ///< of a line
 constexpr double kMostVoices = 3;    ///< by which a short line may count more than it has points
-constexpr double kGate_m = 0.006;  ///< a block is on a floor or not
+constexpr double kGate_m = 0.006;    ///< a block is on a floor or not
 constexpr double kPerGate = 1 / (kGate_m * kGate_m);
 constexpr double kFarthest = 16;    ///< squared Mahalanobis distance of a floor from the prior
 constexpr double kPriorWeight = 2;  ///< points that one unit of it outweighs

@@ -8,10 +8,10 @@ namespace priamos::head {
 
 /// A point of the laser's line in space.
 struct LightPoint {
-  double u = 0;         ///< its column [px]
-  Eigen::Vector3d at;   ///< base frame [m]
-  double variance = 0;  ///< variance of its height, from picture and roughness of the surface [m^2]
-  int line = 0;         ///< of which laser; points lie line after line
+  double u = 0;               ///< its column [px]
+  Eigen::Vector3d at;         ///< base frame [m]
+  double variance = 0;        ///< variance of its height, from picture and roughness of the surface [m^2]
+  int line = 0;               ///< of which laser; points lie line after line
   double laser_variance = 0;  ///< of its height, from what is wrong about its laser's plane [m^2]
 };
 

@@ -15,7 +15,7 @@ constexpr int kTaps = 6;  // of the smoothing filter, on either side
 constexpr int kPhases = 64;
 constexpr double kSmoothing_px = 1.5;
 constexpr int kSlab_px = 32;  // rows of which the strongest ridge is kept, where several are wanted
-constexpr int kSide = 3;  // rows that give the ground on either side
+constexpr int kSide = 3;      // rows that give the ground on either side
 constexpr int kSteps = 5;
 constexpr double kSystematic_px = 0.006;  // what phases and pixels leave, however little noise there is
 
@@ -190,7 +190,8 @@ std::size_t StripeFinder::Strongest(int width, int u) const {
   return best;
 }
 
-void StripeFinder::Measure(const GreyImage& image, int u, std::uint8_t group, std::vector<RidgeAt>& found) const {
+void StripeFinder::Measure(const GreyImage& image, int u, std::uint8_t group,
+                           std::vector<RidgeAt>& found) const {
   const int first = MarginOf(options_), last = image.height - 1 - first;
   const Column column(image, u);
   const int begin = group * rows_per_group_;

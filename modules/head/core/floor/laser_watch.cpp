@@ -7,11 +7,11 @@ namespace priamos::head {
 namespace {
 
 constexpr double kLowerAgain_s = 5;
-constexpr double kMargin = 0.1;          // of the picture's height
-constexpr double kHalfLine_m = 1.1;      // what the light reaches to either side at least
+constexpr double kMargin = 0.1;      // of the picture's height
+constexpr double kHalfLine_m = 1.1;  // what the light reaches to either side at least
 constexpr double kLeastSeen_m = 0.6, kStep_m = 0.1;
-constexpr double kHalfExposure_s = 0.01; // at most
-constexpr double kRests_rad = 1e-3;      // reports of a head at rest differ by less
+constexpr double kHalfExposure_s = 0.01;  // at most
+constexpr double kRests_rad = 1e-3;       // reports of a head at rest differ by less
 
 bool IsSame(const HeadSetting& a, const HeadSetting& b) {
   return std::abs(a.pan_rad - b.pan_rad) < kRests_rad && std::abs(a.tilt_rad - b.tilt_rad) < kRests_rad;
@@ -22,7 +22,8 @@ bool IsSame(const HeadSetting& a, const HeadSetting& b) {
 void LaserWatchConfig::Describe(Archive& a) {
   a.Number("rate_hz", rate_hz, {"Hz", 0, 25, "pictures of the lasers' lines; 0: none"});
   a.Number("tilt_deg", tilt_deg,
-           {"deg", -45, 45, "tilt of a head that nobody needs, from where it sees the lines; positive looks down"});
+           {"deg", -45, 45,
+            "tilt of a head that nobody needs, from where it sees the lines; positive looks down"});
   a.Number("idle_s", idle_s,
            {"s", 0, 60, "time after a look, or an operator's order, until the head turns down"});
   a.Section("obstacle", obstacle, "what stands out from the floor");

@@ -28,10 +28,10 @@ struct LaserWatchConfig {
 
 /// What the watch goes by, at one moment.
 struct WatchMoment {
-  bool needed = false;   ///< a look or an operator moves the head, or may do so at once
-  bool sees = false;     ///< it rests where the camera sees a line
-  bool sees_all = false; ///< and those of all lasers
-  bool exposing = false; ///< a look's pictures are being taken
+  bool needed = false;    ///< a look or an operator moves the head, or may do so at once
+  bool sees = false;      ///< it rests where the camera sees a line
+  bool sees_all = false;  ///< and those of all lasers
+  bool exposing = false;  ///< a look's pictures are being taken
 };
 
 /// Sequence of orders for watching the lines: pictures are taken wherever the head rests with a line in view,
@@ -43,8 +43,8 @@ class LaserWatch {
 
   /// What to do now, see Step.
   enum class Action { kWait, kLower, kTrigger };
-  /// One time step. kLower means: turn the head down; kTrigger: expose the third camera with the lasers on, as
-  /// frame_id(). `here` is where the head rests.
+  /// One time step. kLower means: turn the head down; kTrigger: expose the third camera with the lasers on,
+  /// as frame_id(). `here` is where the head rests.
   Action Step(const WatchMoment& moment, const HeadSetting& here, Time now);
   /// A report of the motors.
   void Report(const HeadSetting& setting, bool moving, Time time);
@@ -59,9 +59,9 @@ class LaserWatch {
   LaserWatchConfig config_;
   std::optional<Time> idle_since_, lowered_, triggered_;
   PictureOrder picture_{0x40000000};
-  HeadSetting at_;                     ///< where the last picture was ordered
-  Time rested_until_{};                ///< the head was there until then
-  bool rests_ = false;                 ///< and has not left
+  HeadSetting at_;       ///< where the last picture was ordered
+  Time rested_until_{};  ///< the head was there until then
+  bool rests_ = false;   ///< and has not left
 };
 
 /// Whether the camera shows enough of the line on a level floor, inside its picture: a head that is turned

@@ -14,10 +14,10 @@ namespace priamos::head {
 
 /// Where the line of one laser is expected in a picture.
 struct ExpectedLine {
-  std::size_t laser = 0;                   ///< its number in the calibration
-  RowRange rows;                           ///< where it can be, for all heights that are looked for
-  std::vector<std::optional<float>> row;   ///< on a level floor, by column; none: outside of the picture
-  int columns = 0;                         ///< how many of these there are
+  std::size_t laser = 0;                  ///< its number in the calibration
+  RowRange rows;                          ///< where it can be, for all heights that are looked for
+  std::vector<std::optional<float>> row;  ///< on a level floor, by column; none: outside of the picture
+  int columns = 0;                        ///< how many of these there are
 };
 
 /// The lines that a level floor would show, from the top of the picture, which is the farthest, to its

@@ -18,7 +18,7 @@ constexpr double kScaleError = 0.01;   ///< relative error of an obstacle's heig
 
 /// The points of all lines in space.
 struct Light {
-  std::vector<LightPoint> points;  ///< line after line
+  std::vector<LightPoint> points;                   ///< line after line
   double camera2_m2 = 0, shift2_m2 = 0, turn2 = 0;  ///< mean squares of what errors of calibration do
 };
 
@@ -44,7 +44,8 @@ void Triangulate(const SeenLine& line, int number, const CameraModel& camera, co
   }
 }
 
-Light Triangulate(std::span<const SeenLine> lines, const CameraModel& camera, const ObstacleOptions& options) {
+Light Triangulate(std::span<const SeenLine> lines, const CameraModel& camera,
+                  const ObstacleOptions& options) {
   Light light;
   for (std::size_t k = 0; k < lines.size(); ++k)
     Triangulate(lines[k], static_cast<int>(k), camera, options, light);
@@ -66,8 +67,7 @@ Eigen::Matrix3d FloorPrior(const FloorTolerance& floor, const Light& light) {
 using Run = std::span<const LightPoint>;
 
 /// Neighbouring points that leave the floor to the same side.
-std::vector<Run> RunsOffFloor(Run points, const FloorPlane& floor,
-                              const ObstacleOptions& options) {
+std::vector<Run> RunsOffFloor(Run points, const FloorPlane& floor, const ObstacleOptions& options) {
   std::vector<Run> runs;
   std::size_t first = 0, last = 0;
   double sign = 0;
@@ -124,8 +124,8 @@ std::optional<ObstaclePiece> Judge(Run run, const FloorPlane& floor, bool agains
     if (against_others) laser += p.laser_variance / n;
   }
   const double scale = kScaleError * height;
-  const double sigma =
-      std::sqrt(variance / std::max(1.0, n / kColumnsPerFact) + floor.VarianceAt(mean) + laser + scale * scale);
+  const double sigma = std::sqrt(variance / std::max(1.0, n / kColumnsPerFact) + floor.VarianceAt(mean) +
+                                 laser + scale * scale);
   if (std::abs(height) < options.min_height_m || std::abs(height) < options.significance * sigma)
     return std::nullopt;
   return ObstaclePiece{height > 0 ? ObstaclePiece::kUp : ObstaclePiece::kDown, run.back().at, run.front().at,

@@ -176,7 +176,7 @@ void WriteLaser(cv::FileStorage& file, const LaserPlane& laser) {
   const auto write = [&](const char* key, const Eigen::Vector3d& v) {
     file << key << "[:" << v.x() << v.y() << v.z() << "]";
   };
-  file << "{";
+  file << "{:";
   write("normal", laser.normal);
   file << "offset_m" << laser.offset_m;
   write("pivot_m", laser.pivot_m);
