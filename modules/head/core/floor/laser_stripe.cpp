@@ -55,6 +55,7 @@ class Column {
 /// Straight line through what lies above and below of the ridge.
 struct Ground {
   double level, slope;  ///< at the row asked for, and per row
+  double brighter;      ///< of both sides
   double roughness;     ///< mean square of the change from row to row
 
   Ground(const Column& column, int v, int reach) {
@@ -69,6 +70,7 @@ struct Ground {
       rough += a * a + b * b;
     }
     level = (above + below) / (2 * kSide);
+    brighter = std::max(above, below) / kSide;
     slope = (below - above) / kSide / (2 * reach + kSide - 1);
     roughness = rough / (2 * (kSide - 1));
   }
@@ -88,7 +90,7 @@ int BrightestRow(const Column& column, int first, int last) {
 }
 
 struct Ridge {
-  double v, contrast, roughness;
+  double v, contrast, least_contrast, roughness;
   double gain;  ///< displacement of the ridge by noise of a pixel [px per grey level]
 };
 
@@ -129,7 +131,8 @@ std::optional<Ridge> Refine(const Column& column, int row, int first, int last, 
     row += whole;
     if (row < first || row > last) return std::nullopt;
     if (settled)
-      return Ridge{row + shift, column[row] - ground.level, ground.roughness, kNorm / -slopes.second};
+      return Ridge{row + shift, column[row] - ground.level, column[row] - ground.brighter, ground.roughness,
+                   kNorm / -slopes.second};
   }
   return std::nullopt;
 }
@@ -201,19 +204,20 @@ void StripeFinder::Measure(const GreyImage& image, int u, std::uint8_t group,
   for (const RidgeAt& other : found) {
     if (std::abs(other.point.at.y() - ridge->v) < options_.reach_px) return;  // seen from the slab beside it
   }
-  found.push_back({{{u, ridge->v}, ridge->contrast, ridge->gain}, ridge->roughness});
+  found.push_back(
+      {{{u, ridge->v}, ridge->contrast, ridge->gain, ridge->least_contrast}, ridge->roughness});
 }
 
-/// Where the line is hidden, an edge of what hides it may look like a faint piece of it.
+/// Where the line is hidden, an edge of what hides it may look like a faint piece of it, of one side at least.
 void StripeFinder::DropFaint(std::vector<StripePoint>& points) const {
   if (points.empty()) return;
   std::vector<double> contrasts;
   contrasts.reserve(points.size());
-  for (const StripePoint& p : points) contrasts.push_back(p.contrast);
+  for (const StripePoint& p : points) contrasts.push_back(p.least_contrast);
   const auto middle = contrasts.begin() + static_cast<std::ptrdiff_t>(contrasts.size() / 2);
   std::ranges::nth_element(contrasts, middle);
   const double least = options_.min_share * *middle;
-  std::erase_if(points, [&](const StripePoint& p) { return p.contrast < least; });
+  std::erase_if(points, [&](const StripePoint& p) { return p.least_contrast < least; });
 }
 
 void StripeFinder::DropGlints(std::vector<StripePoint>& points) const {

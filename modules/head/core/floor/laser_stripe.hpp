@@ -13,6 +13,7 @@ struct StripePoint {
   Eigen::Vector2d at;   ///< u is a whole column, v sub-pixel [distorted px]
   double contrast = 0;  ///< brightness over that above and below the line [grey levels]
   double sigma_px = 0;  ///< standard deviation of v, from the noise of the image
+  double least_contrast = contrast;  ///< over the brighter side
 };
 
 /// Limits within which a ridge of brightness counts as the line of the laser.
