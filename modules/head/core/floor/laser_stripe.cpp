@@ -204,11 +204,11 @@ void StripeFinder::Measure(const GreyImage& image, int u, std::uint8_t group,
   for (const RidgeAt& other : found) {
     if (std::abs(other.point.at.y() - ridge->v) < options_.reach_px) return;  // seen from the slab beside it
   }
-  found.push_back(
-      {{{u, ridge->v}, ridge->contrast, ridge->gain, ridge->least_contrast}, ridge->roughness});
+  found.push_back({{{u, ridge->v}, ridge->contrast, ridge->gain, ridge->least_contrast}, ridge->roughness});
 }
 
-/// Where the line is hidden, an edge of what hides it may look like a faint piece of it, of one side at least.
+/// Where the line is hidden, an edge of what hides it may look like a faint piece of it, of one side at
+/// least.
 void StripeFinder::DropFaint(std::vector<StripePoint>& points) const {
   if (points.empty()) return;
   std::vector<double> contrasts;

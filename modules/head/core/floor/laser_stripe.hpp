@@ -10,9 +10,9 @@ namespace priamos::head {
 
 /// A point of the laser's line in an image.
 struct StripePoint {
-  Eigen::Vector2d at;   ///< u is a whole column, v sub-pixel [distorted px]
-  double contrast = 0;  ///< brightness over that above and below the line [grey levels]
-  double sigma_px = 0;  ///< standard deviation of v, from the noise of the image
+  Eigen::Vector2d at;                ///< u is a whole column, v sub-pixel [distorted px]
+  double contrast = 0;               ///< brightness over that above and below the line [grey levels]
+  double sigma_px = 0;               ///< standard deviation of v, from the noise of the image
   double least_contrast = contrast;  ///< over the brighter side
 };
 
