@@ -11,9 +11,11 @@ constexpr std::size_t kBlocks = 12;  ///< of a line
 constexpr double kMostVoices = 3;    ///< by which a short line may count more than it has points
 constexpr double kGate_m = 0.006;    ///< a block is on a floor or not
 constexpr double kPerGate = 1 / (kGate_m * kGate_m);
-constexpr double kFarthest = 16;    ///< squared Mahalanobis distance of a floor from the prior
-constexpr double kPriorWeight = 2;  ///< points that one unit of it outweighs
-constexpr double kInlier = 9;       ///< square of the sigmas within which a point is on the floor
+constexpr double kFarthest = 16;  ///< squared Mahalanobis distance of a floor from the prior
+/// Points that one unit of it outweighs. Of two lines a step may carry all of one: then the points are even,
+/// and what decides is which of both floors the robot can stand on so.
+constexpr double kPriorWeight = 2, kPriorWeightOfSeveral = 12;
+constexpr double kInlier = 9;  ///< square of the sigmas within which a point is on the floor
 constexpr int kRefinements = 3;
 
 /// Neighbouring points as one: that of median height.
@@ -47,12 +49,17 @@ std::vector<Line> SplitLines(Line points) {
   return lines;
 }
 
-std::vector<Block> MakeBlocks(std::span<const LightPoint> points) {
+struct Blocks {
+  std::vector<Block> all;
+  std::size_t lines = 0;
+};
+
+Blocks MakeBlocks(std::span<const LightPoint> points) {
   const std::vector<Line> lines = SplitLines(points);
-  std::vector<Block> blocks;
+  Blocks blocks{{}, lines.size()};
   for (const Line& line : lines) {
     const auto all = static_cast<double>(points.size()), own = static_cast<double>(line.size());
-    AddBlocks(line, std::min(kMostVoices, all / own / static_cast<double>(lines.size())), blocks);
+    AddBlocks(line, std::min(kMostVoices, all / own / static_cast<double>(lines.size())), blocks.all);
   }
   return blocks;
 }
@@ -71,12 +78,11 @@ struct Sums {
   Eigen::Matrix3d Covariance() const { return information.inverse(); }
 };
 
-double Score(const std::vector<Block>& blocks, const Eigen::Vector3d& plane,
-             const Eigen::Matrix3d& prior_information) {
+double Score(const Blocks& blocks, const Eigen::Vector3d& plane, const Eigen::Matrix3d& prior_information) {
   const double distance = plane.dot(prior_information * plane);
   if (!(distance < kFarthest)) return -1e9;
-  double score = -kPriorWeight * distance;
-  for (const Block& b : blocks) {
+  double score = -(blocks.lines > 1 ? kPriorWeightOfSeveral : kPriorWeight) * distance;
+  for (const Block& b : blocks.all) {
     const double height = b.at.z() - plane[0] - plane[1] * b.at.x() - plane[2] * b.at.y();
     score += b.n * std::max(0.0, 1 - height * height * kPerGate);
   }
@@ -84,15 +90,16 @@ double Score(const std::vector<Block>& blocks, const Eigen::Vector3d& plane,
 }
 
 /// The best of the floors through one or two blocks.
-Eigen::Vector3d Guess(const std::vector<Block>& blocks, const Eigen::Matrix3d& prior_information) {
+Eigen::Vector3d Guess(const Blocks& blocks, const Eigen::Matrix3d& prior_information) {
   Eigen::Vector3d best = Eigen::Vector3d::Zero();
   double best_score = Score(blocks, best, prior_information);
   constexpr double kWeight = 1 / (0.002 * 0.002);
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    for (std::size_t j = i; j < blocks.size(); ++j) {
+  const std::vector<Block>& all = blocks.all;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t j = i; j < all.size(); ++j) {
       Sums sums(prior_information);
-      sums.Add(blocks[i].at, kWeight);
-      if (j != i) sums.Add(blocks[j].at, kWeight);
+      sums.Add(all[i].at, kWeight);
+      if (j != i) sums.Add(all[j].at, kWeight);
       const Eigen::Vector3d plane = sums.Covariance() * sums.vector;
       const double score = Score(blocks, plane, prior_information);
       if (score > best_score) {
