@@ -305,7 +305,9 @@ void HeadApp::WatchFloor(Time now) {
   if (config_.laser.rate_hz <= 0) return;
   WatchMoment moment;
   const bool by_hand = jog_.IsHeld(now);
-  moment.needed = look_.active() || !orders_.empty() || by_hand || aim_.IsHeld(now);
+  // Who drives needs looks or glances: the head stays ready for them.
+  moment.needed =
+      look_.active() || !orders_.empty() || by_hand || aim_.IsHeld(now) || glances_.LooksWhereItDrives();
   if (report_ && !report_->moving && !by_hand && !positioner_.moving()) {
     const std::size_t n = LinesSeen(head_, report_->setting);
     moment.sees = n > 0;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -222,20 +223,9 @@ Rendered RenderedFloors(int frames, const std::vector<world::Solid>& solids, dou
   return tally;
 }
 
-}  // namespace
-
-void BenchLaser(const VisionOptions& options, Figures& figures) {
+void BenchPlainFloors(const VisionOptions& options, const std::vector<cv::Mat>& textures, Figures& figures) {
   const int scale = options.quick ? 10 : 1;
-  Rng rng = Rng::Stream(options.seed, "laser");
-  std::vector<cv::Mat> textures;
-  for (int i = 0; i < 60; ++i) textures.push_back(support::FloorTexture(rng));
-  fmt::print(
-      "line laser: 60 floors with joints, blotches and reflections; the robot nods, the calibration is "
-      "wrong\n");
-  figures.AtMost("  RMS of a column", RowError(100 / scale, textures, Rng::Stream(options.seed, "row")), 0.12,
-                 "px");
   Tally plain;
-  double seconds_of_pair = 0;
   const std::pair<const char*, Lines> kinds[] = {
       {"near", {{1.2}}}, {"one", {{2.1}}}, {"pair", kBoth}, {"glance", kGlance}};
   for (const auto& [name, lines] : kinds) {
@@ -244,51 +234,64 @@ void BenchLaser(const VisionOptions& options, Figures& figures) {
     plain.frames += t.frames;
     plain.alarms += t.alarms;
     plain.blind += t.blind;
-    if (name == std::string_view("pair")) seconds_of_pair = t.seconds / t.frames;
-    if (name == std::string_view("one")) plain.seconds = t.seconds / t.frames;
+    if (name == std::string_view("one"))
+      figures.AtMost("  time of a frame with one line, CPU", 1000 * t.seconds / t.frames, 0.3, "ms");
+    if (name == std::string_view("pair"))
+      figures.AtMost("  time of a frame with two, CPU", 1000 * t.seconds / t.frames, 0.6, "ms");
   }
   figures.AtMost(fmt::format("  false alarms in {} frames of plain floor", plain.frames), plain.alarms, 0,
                  "");
   figures.Note("  frames that tell nothing", 100.0 * plain.blind / plain.frames, "%");
-  figures.AtMost("  time of a frame with one line, CPU", 1000 * plain.seconds, 0.3, "ms");
-  figures.AtMost("  and with two", 1000 * seconds_of_pair, 0.6, "ms");
-  for (const Sizes& what : {Sizes{2.0, 0.03},
-                            {2.0, -0.03},
-                            {2.0, 0.02},
-                            {2.0, -0.02},
-                            {2.0, 0.05},
-                            {2.0, -0.05},
-                            {1.2, 0.03},
-                            {1.2, -0.03},
-                            {2.0, 0.03, true},
-                            {2.0, -0.03, true},
-                            {2.0, -0.05, true},
-                            {2.0, 0.03, true, kBoth},
-                            {2.0, -0.03, true, kBoth},
-                            {3.0, 0.03, true, kBoth},
-                            {3.0, -0.03, true, kBoth},
-                            {3.0, 0.03, true, kGlance},
-                            {3.0, -0.03, true, kGlance},
-                            {3.0, 0.03, false, kGlance},
-                            {3.0, -0.03, false, kGlance}}) {
+}
+
+std::string NameOf(const Sizes& what) {
+  const bool pair = what.lines.tilt_rad == kBoth.tilt_rad, glance = what.lines.tilt_rad == kGlance.tilt_rad;
+  return fmt::format("  {}{:.0f} cm {} at {:.1f} m, {}: found",
+                     pair     ? "two lines: "
+                     : glance ? "in a glance: "
+                              : "",
+                     100 * std::abs(what.height_m), what.height_m > 0 ? "up" : "down", what.distance_m,
+                     what.whole ? "across all of the line" : "20 cm wide");
+}
+
+void BenchSteps(const VisionOptions& options, const std::vector<cv::Mat>& textures, Figures& figures) {
+  const Sizes steps[] = {{2.0, 0.03},
+                         {2.0, -0.03},
+                         {2.0, 0.02},
+                         {2.0, -0.02},
+                         {2.0, 0.05},
+                         {2.0, -0.05},
+                         {1.2, 0.03},
+                         {1.2, -0.03},
+                         {2.0, 0.03, true},
+                         {2.0, -0.03, true},
+                         {2.0, -0.05, true},
+                         {2.0, 0.03, true, kBoth},
+                         {2.0, -0.03, true, kBoth},
+                         {3.0, 0.03, true, kBoth},
+                         {3.0, -0.03, true, kBoth},
+                         {3.0, 0.03, true, kGlance},
+                         {3.0, -0.03, true, kGlance},
+                         {3.0, 0.05, true, kGlance},
+                         {3.0, -0.05, true, kGlance},
+                         {3.0, 0.03, false, kGlance},
+                         {3.0, -0.03, false, kGlance}};
+  for (const Sizes& what : steps) {
     double rms = 0;
     const double found =
-        Found(what, 300 / scale, textures,
+        Found(what, options.quick ? 30 : 300, textures,
               Rng::Stream(options.seed, fmt::format("{} {}", what.distance_m, what.height_m)), rms);
-    const bool pair = what.lines.tilt_rad == kBoth.tilt_rad, glance = what.lines.tilt_rad == kGlance.tilt_rad;
-    const std::string name =
-        fmt::format("  {}{:.0f} cm {} at {:.1f} m, {}: found",
-                    pair     ? "two lines: "
-                    : glance ? "in a glance: "
-                             : "",
-                    100 * std::abs(what.height_m), what.height_m > 0 ? "up" : "down", what.distance_m,
-                    what.whole ? "across all of the line" : "20 cm wide");
+    const bool pair = what.lines.tilt_rad == kBoth.tilt_rad;
     if (std::abs(what.height_m) == 0.03 && (pair || !what.whole))
-      figures.AtLeast(name, 100 * found, pair ? 97 : 99, "%");
+      figures.AtLeast(NameOf(what), 100 * found, pair ? 97 : 99, "%");
     else
-      figures.Note(name, 100 * found, "%");
+      figures.Note(NameOf(what), 100 * found, "%");
     figures.Note("    its height, RMS", 1000 * rms, "mm");
   }
+}
+
+void BenchRendered(const VisionOptions& options, Figures& figures) {
+  const int scale = options.quick ? 10 : 1;
   const Rendered floor = RenderedFloors(200 / scale, {}, 0.5, Rng::Stream(options.seed, "rendered"));
   figures.AtMost(fmt::format("  world's renderer, at 0.5 m/s: false alarms in {} frames", floor.frames),
                  floor.alarms, 0, "");
@@ -298,6 +301,22 @@ void BenchLaser(const VisionOptions& options, Figures& figures) {
                      Rng::Stream(options.seed, "box"));
   figures.AtLeast(fmt::format("  a slab of 3 cm: found in {} frames", box.frames),
                   100.0 * box.alarms / box.frames, 99, "%");
+}
+
+}  // namespace
+
+void BenchLaser(const VisionOptions& options, Figures& figures) {
+  Rng rng = Rng::Stream(options.seed, "laser");
+  std::vector<cv::Mat> textures;
+  for (int i = 0; i < 60; ++i) textures.push_back(support::FloorTexture(rng));
+  fmt::print(
+      "line lasers: 60 floors with joints, blotches and reflections; the robot nods, the calibration is "
+      "wrong\n");
+  figures.AtMost("  RMS of a column",
+                 RowError(options.quick ? 10 : 100, textures, Rng::Stream(options.seed, "row")), 0.12, "px");
+  BenchPlainFloors(options, textures, figures);
+  BenchSteps(options, textures, figures);
+  BenchRendered(options, figures);
 }
 
 }  // namespace priamos::bench

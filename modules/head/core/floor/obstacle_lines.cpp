@@ -162,6 +162,21 @@ Run PointsOf(const std::vector<LightPoint>& points, int line) {
   return {range.begin(), range.end()};
 }
 
+/// The pieces of one line that are not on the floor, and those that are missing.
+std::vector<ObstaclePiece> PiecesOf(Run points, const SeenLine& line, bool against_others,
+                                    const CameraModel& camera, const FloorPlane& floor,
+                                    const ObstacleOptions& options) {
+  std::vector<Run> straight;
+  for (const Run run : RunsOffFloor(points, floor, options)) CutStraight(run, straight);
+  std::vector<ObstaclePiece> pieces;
+  for (const Run run : straight) {
+    if (const auto piece = Judge(run, floor, against_others, options)) pieces.push_back(*piece);
+  }
+  FindMissing(points, line, camera, floor, options.min_missing, pieces);
+  for (ObstaclePiece& piece : pieces) piece.laser = static_cast<int>(line.expected.laser);
+  return pieces;
+}
+
 }  // namespace
 
 ObstacleLines FindObstacles(std::span<const SeenLine> lines, const CameraModel& camera,
@@ -172,29 +187,18 @@ ObstacleLines FindObstacles(std::span<const SeenLine> lines, const CameraModel& 
   result.floor = floor.plane;
   result.floor_covariance = floor.covariance;
   double columns = 0;
-  std::vector<ObstaclePiece> missing;
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const Run points = PointsOf(light.points, static_cast<int>(k));
     columns += lines[k].expected.columns;
-    std::vector<Run> straight;
-    for (const Run run : RunsOffFloor(points, floor, options)) CutStraight(run, straight);
-    const auto mark = [&](std::vector<ObstaclePiece>& pieces, std::size_t first) {
-      for (std::size_t i = first; i < pieces.size(); ++i)
-        pieces[i].laser = static_cast<int>(lines[k].expected.laser);
-    };
-    const std::size_t first = result.pieces.size(), first_missing = missing.size();
-    for (const Run run : straight) {
-      if (const auto piece = Judge(run, floor, lines.size() > 1, options)) result.pieces.push_back(*piece);
-    }
-    FindMissing(points, lines[k], camera, floor, options.min_missing, missing);
-    mark(result.pieces, first);
-    mark(missing, first_missing);
+    for (const ObstaclePiece& piece : PiecesOf(points, lines[k], lines.size() > 1, camera, floor, options))
+      result.pieces.push_back(piece);
   }
-  result.seen_share = columns > 0 ? static_cast<double>(light.points.size()) / columns : 0;
-  result.verdict = !result.pieces.empty()                 ? ObstacleLines::kObstacle
+  result.seen_share = columns > 0 ? std::min(1.0, static_cast<double>(light.points.size()) / columns) : 0;
+  const bool obstacle = std::ranges::any_of(
+      result.pieces, [](const ObstaclePiece& p) { return p.kind != ObstaclePiece::kMissing; });
+  result.verdict = obstacle                               ? ObstacleLines::kObstacle
                    : result.seen_share < options.min_seen ? ObstacleLines::kBlind
                                                           : ObstacleLines::kClear;
-  result.pieces.insert(result.pieces.end(), missing.begin(), missing.end());
   std::ranges::stable_sort(result.pieces, {}, [](const ObstaclePiece& p) { return p.right.y(); });
   return result;
 }
