@@ -158,8 +158,8 @@ void FindMissing(Run points, const SeenLine& line, const CameraModel& camera, co
 
 /// The points of one line.
 Run PointsOf(const std::vector<LightPoint>& points, int line) {
-  const auto range = std::ranges::equal_range(points, line, {}, &LightPoint::line);
-  return {range.begin(), range.end()};
+  const auto first = std::ranges::lower_bound(points, line, {}, &LightPoint::line);
+  return {first, std::ranges::upper_bound(first, points.end(), line, {}, &LightPoint::line)};
 }
 
 /// The pieces of one line that are not on the floor, and those that are missing.
