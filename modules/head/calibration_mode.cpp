@@ -34,7 +34,7 @@ std::string FingerprintOf(const HeadConfig& config, const ReferenceObject& objec
 
 bool HadLaser(const std::string& table) {
   try {
-    return LoadHeadModel(table).laser.has_value();
+    return !LoadHeadModel(table).lasers.empty();
   } catch (const ConfigError&) {
     return false;  // there was none, or none that could be read
   }
@@ -175,9 +175,9 @@ void CalibrationMode::Finish() {
   SaveHeadModel(table_path_, result->model);
   journal_.Remove();
   if (had_laser)
-    context_.Log(
-        bus::Level::kWarning,
-        "the laser's plane belonged to the old table: calibrate it anew (priamos calibrate --laser)");
+    context_.Log(bus::Level::kWarning,
+                 "the planes of the lasers belonged to the old table: calibrate them anew (priamos calibrate "
+                 "--laser)");
   for (int camera = 0; camera < kCameras; ++camera)
     context_.Log(bus::Level::kInfo,
                  fmt::format("{} camera at pan 0, tilt {:.1f} deg, zoom {}, focus {}:\n{}",

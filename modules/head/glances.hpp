@@ -28,6 +28,8 @@ class Glances {
   void OnPose(const PoseSample& pose);
   /// The setting of a glance to begin now, if any; see GlanceRhythm::Step.
   std::optional<HeadSetting> Next(bool needed, bool glancing, Time now);
+  /// Whether the base drives on a path on which the head glances ahead.
+  bool LooksWhereItDrives() const { return ahead_.on() && Follows(false); }
   /// Whether that is one aside, which needs the stereo pair only.
   bool is_aside() const { return to_the_side_; }
   /// No glance for a while: a look is under way that others will follow.

@@ -88,9 +88,9 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
                                     model.reason()));
   }
   OpenVideo();
-  if (config.laser.rate_hz > 0 && !head_.laser)
+  if (config.laser.rate_hz > 0 && head_.lasers.empty())
     throw ConfigError(
-        fmt::format("{}: laser: expected the plane of the line laser for laser.rate_hz above 0, got "
+        fmt::format("{}: lasers: expected the planes of the line lasers for laser.rate_hz above 0, got "
                     "none; calibrate it with `priamos calibrate --laser`",
                     context.ResolvePath(config.calibration)));
 }
@@ -159,7 +159,10 @@ void HeadApp::Tick(Time now) {
 }
 
 void HeadApp::TakeMessages(Time now) {
-  if (const auto state = head_state_.Take()) report_ = FromMessage(*state);
+  if (const auto state = head_state_.Take()) {
+    report_ = FromMessage(*state);
+    watch_.Report(report_->setting, report_->moving, report_->time);
+  }
   for (const pose_t& message : pose_.Drain()) {
     const auto sample = FromMessage(message);
     if (!sample) continue;
@@ -174,7 +177,7 @@ void HeadApp::TakeMessages(Time now) {
   for (const camera_frame_t& message : frames_.Drain()) {
     const FrameNotice frame = FromMessage(message);
     if (WasUsed(frame)) look_.Add(frame);
-    if (watch_.Takes(frame)) ReportFloor(frame);
+    if (const auto setting = watch_.Takes(frame)) ReportFloor(frame, *setting);
     if (video_ && video_->Takes(frame)) ShowVideo(frame);
   }
   for (const look_request_t& message : look_requests_.Drain()) {
@@ -297,12 +300,21 @@ void HeadApp::Look(Time now) {
   }
 }
 
-/// Between looks the third camera watches the laser's line.
+/// Wherever the third camera rests with a line of a laser in view it watches the floor.
 void HeadApp::WatchFloor(Time now) {
   if (config_.laser.rate_hz <= 0) return;
-  const bool needed = look_.active() || !orders_.empty() || jog_.IsHeld(now) || aim_.IsHeld(now);
-  const bool sees = report_ && !report_->moving && SeesLine(head_, report_->setting);
-  switch (watch_.Step(needed, sees, now)) {
+  WatchMoment moment;
+  const bool by_hand = jog_.IsHeld(now);
+  // Who drives needs looks or glances: the head stays ready for them.
+  moment.needed =
+      look_.active() || !orders_.empty() || by_hand || aim_.IsHeld(now) || glances_.LooksWhereItDrives();
+  if (report_ && !report_->moving && !by_hand && !positioner_.moving()) {
+    const std::size_t n = LinesSeen(head_, report_->setting);
+    moment.sees = n > 0;
+    moment.sees_all = n == head_.lasers.size();
+  }
+  moment.exposing = look_.exposed_at() == now;
+  switch (watch_.Step(moment, report_ ? report_->setting : HeadSetting{}, now)) {
     case LaserWatch::Action::kWait:
       return;
     case LaserWatch::Action::kLower:
@@ -313,8 +325,8 @@ void HeadApp::WatchFloor(Time now) {
   }
 }
 
-void HeadApp::ReportFloor(const FrameNotice& frame) {
-  const auto floor = floor_.Evaluate(Picture(frame), report_->setting);
+void HeadApp::ReportFloor(const FrameNotice& frame, const HeadSetting& setting) {
+  const auto floor = floor_.Evaluate(Picture(frame), setting);
   if (!floor) return;
   obstacle_.Publish(ToMessage(floor->lines, frame.exposure));
   if (floor->new_obstacle) context_.Log(bus::Level::kInfo, Describe(*floor->new_obstacle));

@@ -66,7 +66,7 @@ class HeadApp {
   void MoveByHand(Time now);
   void Look(Time now);
   void WatchFloor(Time now);
-  void ReportFloor(const FrameNotice& frame);
+  void ReportFloor(const FrameNotice& frame, const HeadSetting& setting);
   void OpenVideo();
   void ServeVideo(Time now);
   void ShowVideo(const FrameNotice& frame);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "common/covariance.hpp"
@@ -48,7 +49,10 @@ obstacle_segment_t ToMessage(const ObstaclePiece& piece) {
   return message;
 }
 
-/// The pieces that matter most, as they lie from right to left.
+constexpr int kLast = 1000;
+
+/// The pieces that matter most, as they lie from right to left: the highest of each line in turn, so that a
+/// wall on the far line does not hide a duct on the near one.
 std::vector<ObstaclePiece> MostImportant(const std::vector<ObstaclePiece>& pieces, std::size_t n) {
   std::vector<std::size_t> order(pieces.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -57,6 +61,11 @@ std::vector<ObstaclePiece> MostImportant(const std::vector<ObstaclePiece>& piece
   };
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return weight(a) > weight(b); });
+  std::vector<int> rank(pieces.size());
+  std::map<int, int> taken;
+  for (const std::size_t i : order)
+    rank[i] = pieces[i].kind == ObstaclePiece::kMissing ? kLast : taken[pieces[i].laser]++;
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return rank[i]; });
   order.resize(std::min(n, order.size()));
   std::sort(order.begin(), order.end());
   std::vector<ObstaclePiece> chosen;

@@ -12,6 +12,7 @@ RenderFunction MakeRenderFunction(const LoadedWorld& world, const WorldConfig& c
   look.scene = world.light;
   look.imaging = config.lens;
   look.head = WithQuirks(config.BuiltHead(), world.quirks);
+  look.lasers = config.lasers;
   auto renderer = std::make_shared<Renderer>(look, WithPeople(world.solids, world.hazards.people), seed);
   renderer->PlaceReference(world.reference);
   return [renderer](const RenderJob& job) {

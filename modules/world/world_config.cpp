@@ -9,6 +9,7 @@ void WorldConfig::Describe(Archive& a) {
   a.Section("robot", robot, "the robot's body and devices");
   a.Section("lens", lens, "lens blur, sensor and noise of the cameras");
   a.Section("head", head, "mechanics and lenses of KASTOR for head_specimen = 0");
+  DescribeLasers(a, lasers);
 }
 
 HeadBuild WorldConfig::BuiltHead() const {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "common/archive.hpp"
 #include "world/core/camera/imaging.hpp"
 #include "world/core/camera/optics.hpp"
+#include "world/core/render/laser.hpp"
 #include "world/core/simulation.hpp"
 
 namespace priamos::world {
@@ -16,6 +18,7 @@ struct WorldConfig {
   ImagingConfig lens;
   int head_specimen = 1;
   HeadBuild head;
+  std::vector<LaserBuild> lasers = ShippedLasers();
 
   void Describe(Archive& a);
   /// The head as built: the specimen, or `head` when that is 0.

@@ -6,6 +6,7 @@
 
 #include "common/geometry.hpp"
 #include "test/head/head_on_a_bench.hpp"
+#include "test/support/laser_floor.hpp"
 #include "test/support/thrown_reason.hpp"
 
 namespace priamos::head {
@@ -186,8 +187,7 @@ TEST(HeadApp, BetweenLooksTheThirdCameraWatchesTheLaserLine) {
   HeadConfig config;
   config.laser.rate_hz = 5;
   HeadModel table = Bench::NearlyDrawn();
-  table.laser = LaserPlane{Eigen::Vector3d(std::sin(0.35), 0, std::cos(0.35)), 0};
-  table.laser->offset_m = -table.laser->normal.dot(Eigen::Vector3d(0.46, 0, 0.60));
+  table.lasers = support::NominalLaserFloor().lasers;
   Bench head(config, table);
   head.Run(4);
   EXPECT_NEAR(head.counters.tilt_rad, Radians(config.laser.tilt_deg), 1e-9);
@@ -228,7 +228,7 @@ TEST(HeadApp, WatchingTheLaserNeedsItsPlane) {
   config.laser.rate_hz = 5;
   EXPECT_THAT(
       support::ThrownReason([&] { Bench{config}; }),
-      AllOf(HasSubstr("kastor.yaml: laser: expected the plane"), HasSubstr("`priamos calibrate --laser`")));
+      AllOf(HasSubstr("kastor.yaml: lasers: expected the planes"), HasSubstr("`priamos calibrate --laser`")));
 }
 
 HeadConfig Keeping(const std::string& folder) {

@@ -178,6 +178,18 @@ TEST(HeadMessagesTest, OfManyPiecesTheHighestAreKeptInTheirOrder) {
   EXPECT_NEAR(message.segments.back().height_m, 0.07, 1e-6);
 }
 
+TEST(HeadMessagesTest, AWallOnTheFarLineLeavesRoomForADuctOnTheNearOne) {
+  ObstacleLines lines;
+  for (int i = 0; i < 6; ++i) {
+    lines.pieces.push_back(Piece(ObstaclePiece::kUp, -1 + 0.2 * i, 0.2));
+    lines.pieces.back().laser = 1;
+  }
+  lines.pieces.push_back(Piece(ObstaclePiece::kUp, 0.9, 0.03));
+  const obstacle_line_t message = ToMessage(lines, FromUtime(1));
+  ASSERT_EQ(message.n_segments, 4);
+  EXPECT_NEAR(message.segments.back().height_m, 0.03, 1e-6);
+}
+
 TEST(HeadMessagesTest, WhatTheMotorsReportIsReadWhole) {
   head_state_t message{};
   message.utime = 3'000'000;

@@ -105,10 +105,10 @@ struct Speckle {
   }
 };
 
-void DrawLine(const LaserFloor& scene, cv::Mat& grey, Rng& rng) {
+void DrawLine(const LaserFloor& scene, const head::LaserPlane& laser, cv::Mat& grey, Rng& rng) {
   const Speckle speckle(scene, rng);
   const Tracer tracer(scene);
-  const Vector3d normal = scene.laser.normal;
+  const Vector3d normal = laser.normal;
   const Vector3d across = normal.cross(Vector3d::UnitX()).normalized();
   const Vector3d middle = across.cross(normal).normalized();
   const Vector3d ahead = middle.x() > 0 ? middle : Vector3d(-middle);
@@ -139,15 +139,37 @@ void DrawLine(const LaserFloor& scene, cv::Mat& grey, Rng& rng) {
 
 }  // namespace
 
+head::LaserPlane FanTo(double distance_m, const Vector3d& source) {
+  const double pitch = std::atan2(source.z(), distance_m - source.x());
+  head::LaserPlane laser;
+  laser.normal = {std::sin(pitch), 0, std::cos(pitch)};
+  laser.offset_m = -laser.normal.dot(source);
+  laser.pivot_m = {distance_m, 0, 0.05};
+  return laser;
+}
+
+head::CameraModel ThirdCamera(double tilt_rad) {
+  head::HeadSetting setting;
+  setting.tilt_rad = tilt_rad;
+  return head::MakeCameraModel({900, {383.5, 287.5}, -0.05, 0, 0.02},
+                               head::HeadGeometry().BaseFromCamera(setting, head::kThird, 0.02));
+}
+
 LaserFloor NominalLaserFloor() {
   LaserFloor scene;
-  head::HeadSetting setting;
-  setting.tilt_rad = 0.62;
-  scene.camera = head::MakeCameraModel({900, {383.5, 287.5}, -0.05, 0, 0.02},
-                                       head::HeadGeometry().BaseFromCamera(setting, head::kThird, 0.02));
-  scene.laser.normal = {std::sin(0.35), 0, std::cos(0.35)};
-  scene.laser.offset_m = -scene.laser.normal.dot(scene.source);
-  scene.laser.pivot_m = {2.1, 0, 0.05};
+  scene.camera = ThirdCamera(0.62);
+  head::LaserPlane laser;
+  laser.normal = {std::sin(0.35), 0, std::cos(0.35)};
+  laser.offset_m = -laser.normal.dot(scene.source);
+  laser.pivot_m = {2.1, 0, 0.05};
+  scene.lasers = {laser};
+  return scene;
+}
+
+LaserFloor NominalLaserPair() {
+  LaserFloor scene = NominalLaserFloor();
+  scene.camera = ThirdCamera(0.54);
+  scene.lasers.push_back(FanTo(3.0, scene.source));
   return scene;
 }
 
@@ -160,7 +182,9 @@ GreyImage Render(const LaserFloor& scene, Rng& rng) {
         static_cast<int>(rng.Below(static_cast<std::uint64_t>(scene.texture->rows - scene.height + 1)));
     grey += (*scene.texture)({x, y, scene.width, scene.height});
   }
-  if (scene.amplitude > 0) DrawLine(scene, grey, rng);
+  if (scene.amplitude > 0) {
+    for (const head::LaserPlane& laser : scene.lasers) DrawLine(scene, laser, grey, rng);
+  }
   cv::Mat noise(grey.size(), CV_32FC1);
   cv::RNG fast(rng.Below(1u << 31));
   fast.fill(noise, cv::RNG::NORMAL, 0, scene.noise);

@@ -17,12 +17,12 @@ struct FloorStep {
   double albedo = 1;  ///< against the floor's
 };
 
-/// The floor before the robot with the laser's line on it: exact places of the line, simple looks. Much
+/// The floor before the robot with the lasers' lines on it: exact places of the lines, simple looks. Much
 /// faster than world's renderer, with which it shares no code.
 struct LaserFloor {
   head::CameraModel camera;
-  head::LaserPlane laser;
-  Eigen::Vector3d source{0.46, 0, 0.60};  ///< of the fan, in the laser's plane
+  std::vector<head::LaserPlane> lasers;
+  Eigen::Vector3d source{0.46, 0, 0.60};  ///< of the fans, in the lasers' planes
   double half_angle_rad = 0.6;
   double heave_m = 0, pitch_rad = 0, roll_rad = 0;  ///< floor: z = heave + pitch x + roll y
   std::vector<FloorStep> steps;
@@ -34,8 +34,15 @@ struct LaserFloor {
   int width = 768, height = 576;
 };
 
-/// The third camera of the drawing, tilted to see the line in the middle of its picture, and the laser.
+/// The third camera of the drawing, tilted to see the line in the middle of its picture, and the near laser.
 LaserFloor NominalLaserFloor();
+/// The same with both lasers, and the line of the far one as far above the middle as the other below it.
+LaserFloor NominalLaserPair();
+
+/// A level fan from `source` that meets the floor `distance_m` before the base.
+head::LaserPlane FanTo(double distance_m, const Eigen::Vector3d& source);
+/// The third camera of the drawing.
+head::CameraModel ThirdCamera(double tilt_rad);
 
 GreyImage Render(const LaserFloor& scene, Rng& rng);
 

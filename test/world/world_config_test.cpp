@@ -1,11 +1,12 @@
 #include "world/world_config.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <sstream>
 
 #include "common/config.hpp"
 #include "common/config_printer.hpp"
+#include "test/support/thrown_reason.hpp"
 
 namespace priamos::world {
 namespace {
@@ -28,6 +29,19 @@ TEST(WorldConfigTest, PrintedConfigReadsBack) {
   EXPECT_EQ(dut.robot.sonar.materials.size(), 2u);
   EXPECT_EQ(dut.robot.drive.ticks_per_turn, 1000);
   EXPECT_EQ(dut.robot.head_motors.pan.backlash, config.robot.head_motors.pan.backlash);
+}
+
+TEST(WorldConfigTest, EachLaserHasItsPlane) {
+  EXPECT_EQ(WorldConfig{}.lasers.size(), 2U) << "as shipped";
+  const auto dut = ParseConfig<WorldConfig>(
+      "world.toml",
+      "[[lasers]]\npitch_rad = 0.4\n[[lasers]]\npitch_rad = 0.3\n[[lasers]]\npitch_rad = 0.2\n");
+  ASSERT_EQ(dut.lasers.size(), 3U);
+  EXPECT_EQ(dut.lasers[2].pitch_rad, 0.2);
+  std::string five;
+  for (int i = 0; i < 5; ++i) five += "[[lasers]]\n";
+  EXPECT_THAT(support::ThrownReason([&] { ParseConfig<WorldConfig>("world.toml", five); }),
+              testing::HasSubstr("1 to 4 line lasers, a table [[lasers]] for each"));
 }
 
 TEST(WorldConfigTest, SpecimenZeroTakesTheWrittenHead) {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
-#include <optional>
+#include <vector>
 
 #include "common/archive.hpp"
 #include "common/robot/robot_drawing.hpp"
@@ -56,7 +56,7 @@ struct HeadGeometry {
 struct HeadModel {
   HeadGeometry geometry;
   std::array<LensTable, kCameras> lenses;  ///< the third camera's has a single node
-  std::optional<LaserPlane> laser;         ///< light plane of the line laser, if it was calibrated
+  std::vector<LaserPlane> lasers;          ///< light planes of the line lasers that were calibrated
   /// Covariance of the error that all cameras share at every setting, as a small motion of space about the
   /// origin of base (x, y, z, roll, pitch, yaw) [m, rad]. Most of it is the placement error of the reference
   /// object.

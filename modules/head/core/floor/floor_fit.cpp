@@ -7,12 +7,15 @@
 namespace priamos::head {
 namespace {
 
-constexpr std::size_t kBlocks = 12;
-constexpr double kGate_m = 0.006;  ///< a block is on a floor or not
+constexpr std::size_t kBlocks = 12;  ///< of a line
+constexpr double kMostVoices = 3;    ///< by which a short line may count more than it has points
+constexpr double kGate_m = 0.006;    ///< a block is on a floor or not
 constexpr double kPerGate = 1 / (kGate_m * kGate_m);
-constexpr double kFarthest = 16;    ///< squared Mahalanobis distance of a floor from the prior
-constexpr double kPriorWeight = 2;  ///< points that one unit of it outweighs
-constexpr double kInlier = 9;       ///< square of the sigmas within which a point is on the floor
+constexpr double kFarthest = 16;  ///< squared Mahalanobis distance of a floor from the prior
+/// Points that one unit of it outweighs. Of two lines a step may carry all of one: then the points are even,
+/// and what decides is which of both floors the robot can stand on so.
+constexpr double kPriorWeight = 2, kPriorWeightOfSeveral = 12;
+constexpr double kInlier = 9;  ///< square of the sigmas within which a point is on the floor
 constexpr int kRefinements = 3;
 
 /// Neighbouring points as one: that of median height.
@@ -21,8 +24,9 @@ struct Block {
   double n = 0;
 };
 
-std::vector<Block> MakeBlocks(std::span<const LightPoint> points) {
-  std::vector<Block> blocks;
+using Line = std::span<const LightPoint>;
+
+void AddBlocks(Line points, double weight, std::vector<Block>& blocks) {
   const std::size_t size = std::max<std::size_t>(1, (points.size() + kBlocks - 1) / kBlocks);
   std::vector<std::size_t> order;
   for (std::size_t first = 0; first < points.size(); first += size) {
@@ -32,7 +36,30 @@ std::vector<Block> MakeBlocks(std::span<const LightPoint> points) {
     const auto middle = order.begin() + static_cast<std::ptrdiff_t>(order.size() / 2);
     std::nth_element(order.begin(), middle, order.end(),
                      [&](std::size_t a, std::size_t b) { return points[a].at.z() < points[b].at.z(); });
-    blocks.push_back({points[*middle].at, static_cast<double>(last - first)});
+    blocks.push_back({points[*middle].at, weight * static_cast<double>(last - first)});
+  }
+}
+
+std::vector<Line> SplitLines(Line points) {
+  std::vector<Line> lines;
+  for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
+    while (end < points.size() && points[end].line == points[begin].line) ++end;
+    lines.push_back(points.subspan(begin, end - begin));
+  }
+  return lines;
+}
+
+struct Blocks {
+  std::vector<Block> all;
+  std::size_t lines = 0;
+};
+
+Blocks MakeBlocks(std::span<const LightPoint> points) {
+  const std::vector<Line> lines = SplitLines(points);
+  Blocks blocks{{}, lines.size()};
+  for (const Line& line : lines) {
+    const auto all = static_cast<double>(points.size()), own = static_cast<double>(line.size());
+    AddBlocks(line, std::min(kMostVoices, all / own / static_cast<double>(lines.size())), blocks.all);
   }
   return blocks;
 }
@@ -51,12 +78,11 @@ struct Sums {
   Eigen::Matrix3d Covariance() const { return information.inverse(); }
 };
 
-double Score(const std::vector<Block>& blocks, const Eigen::Vector3d& plane,
-             const Eigen::Matrix3d& prior_information) {
+double Score(const Blocks& blocks, const Eigen::Vector3d& plane, const Eigen::Matrix3d& prior_information) {
   const double distance = plane.dot(prior_information * plane);
   if (!(distance < kFarthest)) return -1e9;
-  double score = -kPriorWeight * distance;
-  for (const Block& b : blocks) {
+  double score = -(blocks.lines > 1 ? kPriorWeightOfSeveral : kPriorWeight) * distance;
+  for (const Block& b : blocks.all) {
     const double height = b.at.z() - plane[0] - plane[1] * b.at.x() - plane[2] * b.at.y();
     score += b.n * std::max(0.0, 1 - height * height * kPerGate);
   }
@@ -64,15 +90,16 @@ double Score(const std::vector<Block>& blocks, const Eigen::Vector3d& plane,
 }
 
 /// The best of the floors through one or two blocks.
-Eigen::Vector3d Guess(const std::vector<Block>& blocks, const Eigen::Matrix3d& prior_information) {
+Eigen::Vector3d Guess(const Blocks& blocks, const Eigen::Matrix3d& prior_information) {
   Eigen::Vector3d best = Eigen::Vector3d::Zero();
   double best_score = Score(blocks, best, prior_information);
   constexpr double kWeight = 1 / (0.002 * 0.002);
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    for (std::size_t j = i; j < blocks.size(); ++j) {
+  const std::vector<Block>& all = blocks.all;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t j = i; j < all.size(); ++j) {
       Sums sums(prior_information);
-      sums.Add(blocks[i].at, kWeight);
-      if (j != i) sums.Add(blocks[j].at, kWeight);
+      sums.Add(all[i].at, kWeight);
+      if (j != i) sums.Add(all[j].at, kWeight);
       const Eigen::Vector3d plane = sums.Covariance() * sums.vector;
       const double score = Score(blocks, plane, prior_information);
       if (score > best_score) {

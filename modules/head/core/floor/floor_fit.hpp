@@ -8,9 +8,11 @@ namespace priamos::head {
 
 /// A point of the laser's line in space.
 struct LightPoint {
-  double u = 0;         ///< its column [px]
-  Eigen::Vector3d at;   ///< base frame [m]
-  double variance = 0;  ///< variance of its height, from picture and roughness of the surface [m^2]
+  double u = 0;               ///< its column [px]
+  Eigen::Vector3d at;         ///< base frame [m]
+  double variance = 0;        ///< variance of its height, from picture and roughness of the surface [m^2]
+  int line = 0;               ///< of which laser; points lie line after line
+  double laser_variance = 0;  ///< of its height, from what is wrong about its laser's plane [m^2]
 };
 
 /// The floor in the base frame: z = plane.dot(1, x, y).
@@ -29,7 +31,8 @@ inline constexpr double kColumnsPerFact = 5;
 
 /// The floor among the points: the plane within `prior` (covariance of (height, pitch, roll) about a floor at
 /// z = 0) that most of them lie on, refined by all that do. Points of obstacles do not affect it. Without
-/// points it is the prior.
+/// points it is the prior. Of several lines each has one voice, however many points it has: a step may carry
+/// all of one.
 FloorPlane FitFloor(std::span<const LightPoint> points, const Eigen::Matrix3d& prior);
 
 }  // namespace priamos::head

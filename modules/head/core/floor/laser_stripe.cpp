@@ -14,7 +14,8 @@ namespace {
 constexpr int kTaps = 6;  // of the smoothing filter, on either side
 constexpr int kPhases = 64;
 constexpr double kSmoothing_px = 1.5;
-constexpr int kSide = 3;  // rows that give the ground on either side
+constexpr int kSlab_px = 32;  // rows of which the strongest ridge is kept, where several are wanted
+constexpr int kSide = 3;      // rows that give the ground on either side
 constexpr int kSteps = 5;
 constexpr double kSystematic_px = 0.006;  // what phases and pixels leave, however little noise there is
 
@@ -54,6 +55,7 @@ class Column {
 /// Straight line through what lies above and below of the ridge.
 struct Ground {
   double level, slope;  ///< at the row asked for, and per row
+  double brighter;      ///< of both sides
   double roughness;     ///< mean square of the change from row to row
 
   Ground(const Column& column, int v, int reach) {
@@ -68,6 +70,7 @@ struct Ground {
       rough += a * a + b * b;
     }
     level = (above + below) / (2 * kSide);
+    brighter = std::max(above, below) / kSide;
     slope = (below - above) / kSide / (2 * reach + kSide - 1);
     roughness = rough / (2 * (kSide - 1));
   }
@@ -87,7 +90,7 @@ int BrightestRow(const Column& column, int first, int last) {
 }
 
 struct Ridge {
-  double v, contrast, roughness;
+  double v, contrast, least_contrast, roughness;
   double gain;  ///< displacement of the ridge by noise of a pixel [px per grey level]
 };
 
@@ -128,7 +131,8 @@ std::optional<Ridge> Refine(const Column& column, int row, int first, int last, 
     row += whole;
     if (row < first || row > last) return std::nullopt;
     if (settled)
-      return Ridge{row + shift, column[row] - ground.level, ground.roughness, kNorm / -slopes.second};
+      return Ridge{row + shift, column[row] - ground.level, column[row] - ground.brighter, ground.roughness,
+                   kNorm / -slopes.second};
   }
   return std::nullopt;
 }
@@ -163,17 +167,57 @@ int MarginOf(const StripeOptions& options) {
 
 }  // namespace
 
-void StripeFinder::FindRidges(const GreyImage& image) {
+void StripeFinder::FindRidges(const GreyImage& image, int most) {
   const int width = image.width, reach = options_.reach_px, margin = MarginOf(options_);
+  const int rows = image.height - 2 * margin;
   rows_per_group_ = image.height / 256 + 1;  // so that their number fits into a byte
-  strength_.assign(width, 0);
-  row_group_.assign(width, 0);
+  slabs_ = most == 1 ? 1 : (rows + kSlab_px - 1) / kSlab_px;
+  const std::size_t cells = static_cast<std::size_t>(slabs_) * static_cast<std::size_t>(width);
+  strength_.assign(cells, 0);
+  row_group_.assign(cells, 0);
   const std::ptrdiff_t reach_bytes = std::ptrdiff_t{reach} * width;
   for (int v = margin; v < image.height - margin; ++v) {
     const std::uint8_t* row = image.pixels.data() + static_cast<std::size_t>(v) * width;
+    const std::ptrdiff_t slab = std::ptrdiff_t{width} * ((v - margin) * slabs_ / rows);
     KeepRidges({row, row - width, row + width, row - reach_bytes, row + reach_bytes},
-               static_cast<std::uint8_t>(v / rows_per_group_), width, strength_.data(), row_group_.data());
+               static_cast<std::uint8_t>(v / rows_per_group_), width, strength_.data() + slab,
+               row_group_.data() + slab);
   }
+}
+
+std::size_t StripeFinder::Strongest(int width, int u) const {
+  std::size_t best = static_cast<std::size_t>(u);
+  for (std::size_t cell = best; cell < strength_.size(); cell += static_cast<std::size_t>(width)) {
+    if (strength_[cell] > strength_[best]) best = cell;
+  }
+  return best;
+}
+
+void StripeFinder::Measure(const GreyImage& image, int u, std::uint8_t group,
+                           std::vector<RidgeAt>& found) const {
+  const int first = MarginOf(options_), last = image.height - 1 - first;
+  const Column column(image, u);
+  const int begin = group * rows_per_group_;
+  const int row = BrightestRow(column, std::max(first, begin - 1), std::min(last, begin + rows_per_group_));
+  const auto ridge = Refine(column, row, first, last, options_.reach_px);
+  if (!ridge || ridge->contrast < options_.min_contrast) return;
+  for (const RidgeAt& other : found) {
+    if (std::abs(other.point.at.y() - ridge->v) < options_.reach_px) return;  // seen from the slab beside it
+  }
+  found.push_back({{{u, ridge->v}, ridge->contrast, ridge->gain, ridge->least_contrast}, ridge->roughness});
+}
+
+/// Where the line is hidden, an edge of what hides it may look like a faint piece of it, of one side at
+/// least.
+void StripeFinder::DropFaint(std::vector<StripePoint>& points) const {
+  if (points.empty()) return;
+  std::vector<double> contrasts;
+  contrasts.reserve(points.size());
+  for (const StripePoint& p : points) contrasts.push_back(p.least_contrast);
+  const auto middle = contrasts.begin() + static_cast<std::ptrdiff_t>(contrasts.size() / 2);
+  std::ranges::nth_element(contrasts, middle);
+  const double least = options_.min_share * *middle;
+  std::erase_if(points, [&](const StripePoint& p) { return p.least_contrast < least; });
 }
 
 void StripeFinder::DropGlints(std::vector<StripePoint>& points) const {
@@ -210,29 +254,51 @@ void StripeFinder::Smooth(std::vector<StripePoint>& points) const {
   }
 }
 
-std::vector<StripePoint> StripeFinder::Find(const GreyImage& image) {
-  const int reach = options_.reach_px, first = MarginOf(options_), last = image.height - 1 - first;
+std::vector<StripePoint> StripeFinder::Ridges(const GreyImage& image, int most) {
   std::vector<StripePoint> points;
-  if (last < first || image.width < 3) return points;
-  FindRidges(image);
+  if (image.height <= 2 * MarginOf(options_) || image.width < 3) return points;
+  FindRidges(image, most);
   double roughness = 0;
+  std::vector<RidgeAt> found;
   for (int u = 0; u < image.width; ++u) {
-    // The ridge filter loses a part of narrow lines: the exact contrast is judged below.
-    if (strength_[u] < options_.min_contrast / 2) continue;
-    const Column column(image, u);
-    const int begin = row_group_[u] * rows_per_group_;
-    const int row = BrightestRow(column, std::max(first, begin - 1), std::min(last, begin + rows_per_group_));
-    const auto ridge = Refine(column, row, first, last, reach);
-    if (!ridge || ridge->contrast < options_.min_contrast) continue;
-    points.push_back({{u, ridge->v}, ridge->contrast, ridge->gain});
-    roughness += ridge->roughness;
+    found.clear();
+    // One ridge may be the strongest of two slabs side by side, and be measured twice.
+    for (int tries = 2 * most - 1; tries > 0 && std::ssize(found) < most; --tries) {
+      const std::size_t cell = Strongest(image.width, u);
+      // The ridge filter loses a part of narrow lines: the exact contrast is judged afterwards.
+      if (strength_[cell] < options_.min_contrast / 2) break;
+      strength_[cell] = 0;
+      Measure(image, u, row_group_[cell], found);
+    }
+    std::ranges::sort(found, {}, [](const RidgeAt& r) { return r.point.at.y(); });
+    for (const RidgeAt& ridge : found) {
+      points.push_back(ridge.point);
+      roughness += ridge.roughness;
+    }
   }
   // Half of the mean square of differences is the variance of a pixel.
   const double noise = points.empty() ? 0 : std::sqrt(std::max(0.1, roughness / 2 / points.size()));
   for (StripePoint& p : points) p.sigma_px *= noise;
+  return points;
+}
+
+std::vector<StripePoint> StripeFinder::Trace(std::vector<StripePoint> points) const {
+  DropFaint(points);
   DropGlints(points);
   Smooth(points);
   return points;
+}
+
+std::vector<std::vector<StripePoint>> StripeFinder::FindInOrder(const GreyImage& image, int n) {
+  const std::vector<StripePoint> ridges = Ridges(image, n);
+  std::vector<std::vector<StripePoint>> lines(static_cast<std::size_t>(n));
+  for (std::size_t begin = 0, end = 0; begin < ridges.size(); begin = end) {
+    while (end < ridges.size() && ridges[end].at.x() == ridges[begin].at.x()) ++end;
+    if (end - begin != lines.size()) continue;
+    for (std::size_t k = 0; k < lines.size(); ++k) lines[k].push_back(ridges[begin + k]);
+  }
+  for (std::vector<StripePoint>& line : lines) line = Trace(std::move(line));
+  return lines;
 }
 
 }  // namespace priamos::head

@@ -1,105 +1,78 @@
 #include "head/core/floor/obstacle_lines.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "common/image_size.hpp"
 #include "head/core/floor/floor_fit.hpp"
+#include "head/core/floor/line_geometry.hpp"
 
 namespace priamos::head {
 namespace {
 
-using Eigen::Vector2d, Eigen::Vector3d;
+using Eigen::Vector3d;
 
-constexpr double kNearest_m = 0.2, kFarthest_m = 8;
-constexpr double kMinSine = 0.02;  ///< sine of the smallest angle between line of sight and plane of light
-constexpr double kGap_px = 4;      ///< widest gap within a piece, in columns
+constexpr double kGap_px = 4;          ///< widest gap within a piece, in columns
 constexpr double kStraight_m = 0.015;  ///< largest deviation of a piece from a straight line
 constexpr double kScaleError = 0.01;   ///< relative error of an obstacle's height
-constexpr double kSpan_m = 3;          ///< to either side, where the floor's line is looked for
-constexpr double kRowMargin_px = 14;
 
-/// Where lines of sight meet the plane of the light.
-class Triangulation {
- public:
-  Triangulation(const CameraModel& camera, const LaserPlane& laser)
-      : camera_(camera),
-        normal_(laser.normal),
-        ray_from_image_(camera.image_from_base.leftCols<3>().inverse()),
-        eye_(-ray_from_image_ * camera.image_from_base.col(3)),
-        distance_(laser.normal.dot(eye_) + laser.offset_m) {}
-
-  struct Point {
-    Vector3d at;
-    double rise_m_per_px;   ///< change of its height with the row
-    double rise_per_shift;  ///< and with a shift of the plane along its normal
-  };
-  std::optional<Point> At(const Vector2d& image_px) const {
-    const Vector3d ray = ray_from_image_ * camera_.Undistort(image_px).homogeneous();
-    const double slope = normal_.dot(ray), range = -distance_ / slope;
-    if (!(std::abs(slope) > kMinSine * ray.norm()) || !(range > 0)) return std::nullopt;
-    const Vector3d by_row = ray_from_image_.col(1);
-    const Vector3d moved = range * (by_row - ray * (normal_.dot(by_row) / slope));
-    return Point{eye_ + range * ray, moved.z(), ray.z() / slope};
-  }
-
- private:
-  const CameraModel& camera_;
-  Vector3d normal_;
-  Eigen::Matrix3d ray_from_image_;
-  Vector3d eye_;
-  double distance_;
-};
-
+/// The points of all lines in space.
 struct Light {
-  std::vector<LightPoint> points;
-  double rise_m_per_px = 0, rise_per_shift = 0;  ///< root mean square
+  std::vector<LightPoint> points;                   ///< line after line
+  double camera2_m2 = 0, shift2_m2 = 0, turn2 = 0;  ///< mean squares of what errors of calibration do
 };
 
-Light Triangulate(std::span<const StripePoint> stripe, const CameraModel& camera, const LaserPlane& laser,
-                  const ObstacleOptions& options) {
-  const Triangulation triangulation(camera, laser);
-  Light light;
-  light.points.reserve(stripe.size());
+void Triangulate(const SeenLine& line, int number, const CameraModel& camera, const ObstacleOptions& options,
+                 Light& light) {
+  const Triangulation triangulation(camera, line.plane);
+  const LaserPlane& laser = line.plane;
   const double rough2 = options.floor.rough_m * options.floor.rough_m;
-  for (const StripePoint& s : stripe) {
+  for (const StripePoint& s : line.points) {
     const auto point = triangulation.At(s.at);
-    if (!point || point->at.x() < kNearest_m || point->at.x() > kFarthest_m) continue;
+    if (!point || point->at.x() < kNearestLight_m || point->at.x() > kFarthestLight_m) continue;
     if (point->at.z() < options.lowest_m || point->at.z() > options.highest_m) continue;
-    const double sigma = point->rise_m_per_px * s.sigma_px;
-    light.points.push_back({s.at.x(), point->at, sigma * sigma + rough2});
-    light.rise_m_per_px += point->rise_m_per_px * point->rise_m_per_px;
-    light.rise_per_shift += point->rise_per_shift * point->rise_per_shift;
+    const auto square = [](double x) { return x * x; };
+    const double by_shift = square(point->rise_per_shift);
+    LightPoint in_space{s.at.x(), point->at, square(point->rise_m_per_px * s.sigma_px) + rough2, number};
+    in_space.laser_variance =
+        by_shift * (square(laser.sigma_shift_m) +
+                    square(laser.sigma_turn_rad) * (point->at - laser.pivot_m).squaredNorm());
+    light.points.push_back(in_space);
+    light.camera2_m2 += square(point->rise_m_per_px * options.floor.camera_px);
+    light.shift2_m2 += by_shift * square(laser.sigma_shift_m);
+    light.turn2 += by_shift * square(laser.sigma_turn_rad);
   }
+}
+
+Light Triangulate(std::span<const SeenLine> lines, const CameraModel& camera,
+                  const ObstacleOptions& options) {
+  Light light;
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    Triangulate(lines[k], static_cast<int>(k), camera, options, light);
   const double n = std::max<double>(1, static_cast<double>(light.points.size()));
-  light.rise_m_per_px = std::sqrt(light.rise_m_per_px / n);
-  light.rise_per_shift = std::sqrt(light.rise_per_shift / n);
+  light.camera2_m2 /= n;
+  light.shift2_m2 /= n;
+  light.turn2 /= n;
   return light;
 }
 
 /// Prior covariance of the floor; errors of camera and laser act like heave and roll of it.
-Eigen::Matrix3d FloorPrior(const FloorTolerance& floor, const LaserPlane& laser, const Light& light) {
-  const double camera = light.rise_m_per_px * floor.camera_px;
-  const double shift = light.rise_per_shift * laser.sigma_shift_m;
-  const double turn = light.rise_per_shift * laser.sigma_turn_rad;
-  return Vector3d(floor.heave_m * floor.heave_m + camera * camera + shift * shift,
-                  floor.pitch_rad * floor.pitch_rad + turn * turn,
-                  floor.roll_rad * floor.roll_rad + turn * turn)
+Eigen::Matrix3d FloorPrior(const FloorTolerance& floor, const Light& light) {
+  return Vector3d(floor.heave_m * floor.heave_m + light.camera2_m2 + light.shift2_m2,
+                  floor.pitch_rad * floor.pitch_rad + light.turn2,
+                  floor.roll_rad * floor.roll_rad + light.turn2)
       .asDiagonal();
 }
 
 using Run = std::span<const LightPoint>;
 
 /// Neighbouring points that leave the floor to the same side.
-std::vector<Run> RunsOffFloor(const std::vector<LightPoint>& points, const FloorPlane& floor,
-                              const ObstacleOptions& options) {
+std::vector<Run> RunsOffFloor(Run points, const FloorPlane& floor, const ObstacleOptions& options) {
   std::vector<Run> runs;
   std::size_t first = 0, last = 0;
   double sign = 0;
   const auto close = [&] {
-    if (sign != 0) runs.push_back(Run(points).subspan(first, last - first + 1));
+    if (sign != 0) runs.push_back(points.subspan(first, last - first + 1));
     sign = 0;
   };
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -137,154 +110,126 @@ void CutStraight(Run run, std::vector<Run>& straight) {
 }
 
 /// The obstacle piece that a run of points shows; nullopt if it is too short, too low or not significant.
-std::optional<ObstaclePiece> Judge(Run run, const FloorPlane& floor, const ObstacleOptions& options) {
+/// `against_others`: the floor is known from other lines as well, with errors of their own.
+std::optional<ObstaclePiece> Judge(Run run, const FloorPlane& floor, bool against_others,
+                                   const ObstacleOptions& options) {
   if (run.size() < static_cast<std::size_t>(options.min_columns)) return std::nullopt;
   Vector3d mean = Vector3d::Zero();
-  double height = 0, variance = 0;
+  double height = 0, variance = 0, laser = 0;
   const double n = static_cast<double>(run.size());
   for (const LightPoint& p : run) {
     mean += p.at / n;
     height += floor.HeightOf(p.at) / n;
     variance += p.variance / n;
+    if (against_others) laser += p.laser_variance / n;
   }
   const double scale = kScaleError * height;
-  const double sigma =
-      std::sqrt(variance / std::max(1.0, n / kColumnsPerFact) + floor.VarianceAt(mean) + scale * scale);
+  const double sigma = std::sqrt(variance / std::max(1.0, n / kColumnsPerFact) + floor.VarianceAt(mean) +
+                                 laser + scale * scale);
   if (std::abs(height) < options.min_height_m || std::abs(height) < options.significance * sigma)
     return std::nullopt;
   return ObstaclePiece{height > 0 ? ObstaclePiece::kUp : ObstaclePiece::kDown, run.back().at, run.front().at,
                        height, sigma};
 }
 
-/// Where the light meets the floor, by column.
-class FloorLine {
- public:
-  FloorLine(const CameraModel& camera, const LaserPlane& laser, const FloorPlane& floor) {
-    const Vector3d& n = laser.normal;
-    for (double y = kSpan_m; y >= -kSpan_m; y -= 0.05) {
-      // n.(x, y, z) + offset = 0 with z = a + b x + c y.
-      const double x = -(n.y() * y + n.z() * (floor.plane[0] + floor.plane[2] * y) + laser.offset_m) /
-                       (n.x() + n.z() * floor.plane[1]);
-      const Vector3d at(x, y, floor.plane.dot(Vector3d(1, x, y)));
-      if (!at.allFinite() || x < kNearest_m || x > kFarthest_m || camera.Depth(at) < 0.1) continue;
-      const double u = camera.Distort(camera.Project(at)).x();
-      if (columns_.empty() || u > columns_.back().first) columns_.emplace_back(u, at);
-    }
-  }
-  std::optional<Vector3d> At(double u) const {
-    const auto after = std::lower_bound(columns_.begin(), columns_.end(), u,
-                                        [](const auto& c, double value) { return c.first < value; });
-    if (after == columns_.begin() || after == columns_.end()) return std::nullopt;
-    const auto before = after - 1;
-    const double share = (u - before->first) / (after->first - before->first);
-    return Vector3d(before->second + share * (after->second - before->second));
-  }
-
- private:
-  std::vector<std::pair<double, Vector3d>> columns_;
-};
-
 void AddMissing(double from_u, double to_u, const FloorLine& line, std::vector<ObstaclePiece>& pieces) {
   const auto left = line.At(from_u), right = line.At(to_u);
-  if (left && right) pieces.push_back({ObstaclePiece::kMissing, *right, *left, 0, 0});
+  if (left && right) pieces.push_back({ObstaclePiece::kMissing, right->at, left->at, 0, 0});
 }
 
-void FindMissing(const std::vector<LightPoint>& points, int width, const CameraModel& camera,
-                 const LaserPlane& laser, const FloorPlane& floor, int min_missing,
-                 std::vector<ObstaclePiece>& pieces) {
+/// Of the columns in which the line should be.
+void FindMissing(Run points, const SeenLine& line, const CameraModel& camera, const FloorPlane& floor,
+                 int min_missing, std::vector<ObstaclePiece>& pieces) {
+  const auto& row = line.expected.row;
+  double first = 0, last = static_cast<double>(row.size()) - 1;
+  while (first < last && !row[static_cast<std::size_t>(first)]) ++first;
+  while (last > first && !row[static_cast<std::size_t>(last)]) --last;
   std::vector<std::pair<double, double>> gaps;
-  double last = -1;
+  double before = first - 1;
   for (const LightPoint& p : points) {
-    if (p.u - last > min_missing) gaps.emplace_back(last + 1, p.u - 1);
-    last = p.u;
+    if (p.u - before > min_missing) gaps.emplace_back(before + 1, p.u - 1);
+    before = p.u;
   }
-  if (width - last > min_missing) gaps.emplace_back(last + 1, width - 1);
+  if (last + 1 - before > min_missing) gaps.emplace_back(before + 1, last);
   if (gaps.empty()) return;
-  const FloorLine line(camera, laser, floor);
-  for (const auto& [from, to] : gaps) AddMissing(from, to, line, pieces);
+  const FloorLine on_floor(camera, line.plane, floor.plane);
+  for (const auto& [from, to] : gaps) AddMissing(from, to, on_floor, pieces);
+}
+
+/// The points of one line.
+Run PointsOf(const std::vector<LightPoint>& points, int line) {
+  const auto first = std::ranges::lower_bound(points, line, {}, &LightPoint::line);
+  return {first, std::ranges::upper_bound(first, points.end(), line, {}, &LightPoint::line)};
+}
+
+/// The pieces of one line that are not on the floor, and those that are missing.
+std::vector<ObstaclePiece> PiecesOf(Run points, const SeenLine& line, bool against_others,
+                                    const CameraModel& camera, const FloorPlane& floor,
+                                    const ObstacleOptions& options) {
+  std::vector<Run> straight;
+  for (const Run run : RunsOffFloor(points, floor, options)) CutStraight(run, straight);
+  std::vector<ObstaclePiece> pieces;
+  for (const Run run : straight) {
+    if (const auto piece = Judge(run, floor, against_others, options)) pieces.push_back(*piece);
+  }
+  FindMissing(points, line, camera, floor, options.min_missing, pieces);
+  for (ObstaclePiece& piece : pieces) piece.laser = static_cast<int>(line.expected.laser);
+  return pieces;
 }
 
 }  // namespace
 
-void FloorTolerance::Describe(Archive& a) {
-  a.Number("heave_m", heave_m, {"m", 0.0001, 0.1, "up and down below the robot, joints included; 1 sigma"});
-  a.Number("pitch_rad", pitch_rad, {"rad", 0.0001, 0.1, "angle by which the robot nods; 1 sigma"});
-  a.Number("roll_rad", roll_rad, {"rad", 0.0001, 0.1, "angle by which the robot heels; 1 sigma"});
-  a.Number("rough_m", rough_m, {"m", 0.0001, 0.05, "roughness of the surface, from place to place; 1 sigma"});
-  a.Number("camera_px", camera_px, {"px", 0.01, 5, "how well the third camera is calibrated; 1 sigma"});
-}
-
-void ObstacleOptions::Describe(Archive& a) {
-  a.Number("min_height_m", min_height_m, {"m", 0.003, 0.2, "what is lower is driven over"});
-  a.Number("lowest_m", lowest_m, {"m", -3, -0.01, "deepest that is looked for, against the floor"});
-  a.Number("highest_m", highest_m, {"m", 0.01, 3, "highest that is looked for"});
-  a.Number("significance", significance, {"-", 3, 20, "sigmas of its height that an obstacle needs"});
-  a.Integer("min_columns", min_columns, {"px", 4, 200, "columns of the picture that it needs"});
-  a.Integer("min_missing", min_missing,
-            {"px", 4, ImageSize{}.width, "a gap in the line is reported if it has more columns"});
-  a.Number("min_seen", min_seen,
-           {"-", 0, 1, "least share of columns with a line; with less the floor is not judged"});
-  // Last: as TOML, what followed would belong to it.
-  a.Section("floor", floor, "how a floor may lie");
-}
-
-ObstacleLines FindObstacles(std::span<const StripePoint> stripe, int width, const CameraModel& camera,
-                            const LaserPlane& laser, const ObstacleOptions& options) {
-  const Light light = Triangulate(stripe, camera, laser, options);
-  const FloorPlane floor = FitFloor(light.points, FloorPrior(options.floor, laser, light));
+ObstacleLines FindObstacles(std::span<const SeenLine> lines, const CameraModel& camera,
+                            const ObstacleOptions& options) {
+  const Light light = Triangulate(lines, camera, options);
+  const FloorPlane floor = FitFloor(light.points, FloorPrior(options.floor, light));
   ObstacleLines result;
-  result.seen_share = width > 0 ? static_cast<double>(light.points.size()) / width : 0;
   result.floor = floor.plane;
   result.floor_covariance = floor.covariance;
-  std::vector<Run> straight;
-  for (const Run run : RunsOffFloor(light.points, floor, options)) CutStraight(run, straight);
-  for (const Run run : straight) {
-    if (const auto piece = Judge(run, floor, options)) result.pieces.push_back(*piece);
+  double columns = 0;
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const Run points = PointsOf(light.points, static_cast<int>(k));
+    columns += lines[k].expected.columns;
+    for (const ObstaclePiece& piece : PiecesOf(points, lines[k], lines.size() > 1, camera, floor, options))
+      result.pieces.push_back(piece);
   }
-  result.verdict = !result.pieces.empty()                 ? ObstacleLines::kObstacle
+  result.seen_share = columns > 0 ? std::min(1.0, static_cast<double>(light.points.size()) / columns) : 0;
+  const bool obstacle = std::ranges::any_of(
+      result.pieces, [](const ObstaclePiece& p) { return p.kind != ObstaclePiece::kMissing; });
+  result.verdict = obstacle                               ? ObstacleLines::kObstacle
                    : result.seen_share < options.min_seen ? ObstacleLines::kBlind
                                                           : ObstacleLines::kClear;
-  FindMissing(light.points, width, camera, laser, floor, options.min_missing, result.pieces);
-  std::stable_sort(result.pieces.begin(), result.pieces.end(),
-                   [](const auto& a, const auto& b) { return a.right.y() < b.right.y(); });
+  std::ranges::stable_sort(result.pieces, {}, [](const ObstaclePiece& p) { return p.right.y(); });
   return result;
 }
 
-RowRange LineRows(const CameraModel& camera, const LaserPlane& laser, int width, int height,
-                  const ObstacleOptions& options) {
-  double first = 1e9, last = -1e9;
-  for (int step = 0; step <= 10; ++step) {
-    const double z = options.lowest_m + step / 10.0 * (options.highest_m - options.lowest_m);
-    for (double y = -kSpan_m; y <= kSpan_m; y += 0.25) {
-      const Vector3d at(-(laser.normal.y() * y + laser.normal.z() * z + laser.offset_m) / laser.normal.x(), y,
-                        z);
-      if (!at.allFinite() || at.x() < kNearest_m || at.x() > kFarthest_m || camera.Depth(at) < 0.1) continue;
-      const Vector2d image = camera.Project(at);
-      if (image.x() < -0.1 * width || image.x() > 1.1 * width) continue;
-      const Vector2d distorted = camera.Distort(image);
-      if (distorted.y() < -0.5 * height || distorted.y() > 1.5 * height) continue;
-      first = std::min(first, distorted.y());
-      last = std::max(last, distorted.y());
-    }
+std::vector<std::vector<StripePoint>> ObstacleFinder::FindStripes(const GreyImage& picture,
+                                                                  std::span<const ExpectedLine> lines) {
+  int first = picture.height, last = -1;
+  for (const ExpectedLine& line : lines) {
+    first = std::min(first, line.rows.first);
+    last = std::max(last, line.rows.last);
   }
-  const RowRange rows{static_cast<int>(std::max(0.0, first - kRowMargin_px)),
-                      static_cast<int>(std::min<double>(height - 1, last + kRowMargin_px))};
-  return rows.first < rows.last ? rows : RowRange{};
-}
-
-ObstacleLines ObstacleFinder::Find(const GreyImage& picture, const CameraModel& camera,
-                                   const LaserPlane& laser) {
-  const RowRange rows = LineRows(camera, laser, picture.width, picture.height, options_);
-  if (rows.first > rows.last) return {};
   const auto row = [&](int v) {
     return picture.pixels.begin() + static_cast<std::ptrdiff_t>(v) * picture.width;
   };
   band_.width = picture.width;
-  band_.height = rows.last - rows.first + 1;
-  band_.pixels.assign(row(rows.first), row(rows.last + 1));
-  std::vector<StripePoint> stripe = stripe_.Find(band_);
-  for (StripePoint& p : stripe) p.at.y() += rows.first;
-  return FindObstacles(stripe, picture.width, camera, laser, options_);
+  band_.height = last - first + 1;
+  band_.pixels.assign(row(first), row(last + 1));
+  std::vector<StripePoint> ridges = stripe_.Ridges(band_, static_cast<int>(lines.size()));
+  for (StripePoint& p : ridges) p.at.y() += first;
+  return TellApart(ridges, lines);
+}
+
+ObstacleLines ObstacleFinder::Find(const GreyImage& picture, const CameraModel& camera,
+                                   std::span<const LaserPlane> lasers) {
+  const auto lines = ExpectLines(camera, lasers, {picture.width, picture.height}, options_);
+  if (lines.empty()) return {};
+  auto stripes = FindStripes(picture, lines);
+  std::vector<SeenLine> seen;
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    seen.push_back({lasers[lines[k].laser], lines[k], stripe_.Trace(std::move(stripes[k]))});
+  return FindObstacles(seen, camera, options_);
 }
 
 }  // namespace priamos::head

@@ -10,9 +10,9 @@ namespace priamos::head {
 std::optional<FloorResult> FloorEvaluator::Evaluate(const std::optional<GreyImage>& picture,
                                                     const HeadSetting& setting) {
   const auto camera = head_.CameraAt(setting, kThird);
-  if (!picture || !head_.laser || !camera) return std::nullopt;
+  if (!picture || head_.lasers.empty() || !camera) return std::nullopt;
   FloorResult result;
-  result.lines = finder_.Find(*picture, *camera, *head_.laser);
+  result.lines = finder_.Find(*picture, *camera, head_.lasers);
   if (result.lines.verdict == ObstacleLines::kObstacle && last_ != ObstacleLines::kObstacle)
     result.new_obstacle = WorstPiece(result.lines);
   last_ = result.lines.verdict;

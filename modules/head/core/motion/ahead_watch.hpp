@@ -29,6 +29,8 @@ class AheadWatch : private GlanceRhythm {
   bool Step(bool needed, bool glancing, bool drives, Time now) {
     return GlanceRhythm::Step(needed, glancing, drives && config_.ahead, now);
   }
+  /// Whether there are glances at all.
+  bool on() const { return config_.ahead; }
   /// The setting of a glance to where the base drives, `bearing_rad` from its front; vergence, zoom and focus
   /// as in `base`.
   HeadSetting SettingFrom(HeadSetting base, double bearing_rad) const;

@@ -49,6 +49,8 @@ class HeadPositioner {
   const HeadSetting& goal() const { return goal_; }
   /// Whether the head rests at the goal, and did so for the settling time.
   bool settled() const { return phase_ == Phase::kSettled; }
+  /// Whether it is on its way to the goal, or has only just arrived.
+  bool moving() const { return phase_ == Phase::kBelow || phase_ == Phase::kAtGoal; }
   /// Whether the goal was not reached in time, or no report came.
   bool failed() const { return phase_ == Phase::kFailed; }
 

@@ -55,6 +55,8 @@ class LookSequence {
   Action Step(bool head_settled, bool head_failed, Time now);
 
   std::int32_t frame_id() const { return frame_id_; }
+  /// When its cameras were exposed last.
+  Time exposed_at() const { return triggered_; }
   /// Bits of the cameras to expose.
   int camera_mask() const { return CameraBits(wanted_); }
   /// The pictures, after kUseFrames: left, right, and the third one if it came.

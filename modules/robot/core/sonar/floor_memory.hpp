@@ -34,9 +34,9 @@ struct FloorMemoryConfig {
   void Describe(Archive& a);
 };
 
-/// Obstacles on the floor that are too low for the sonars, and steps down. The line lies two metres ahead and
-/// passes a place once, so a place is kept until the base is far from it or has driven about for a minute.
-/// A thing begins somewhere between this line and the one before; the nearer end counts.
+/// Obstacles on the floor that are too low for the sonars, and steps down. The lines lie two and three metres
+/// ahead and pass a place once, so a place is kept until the base is far from it or has driven about for a
+/// minute. A thing begins somewhere between this line and the one before; the nearer end counts.
 class FloorMemory {
  public:
   explicit FloorMemory(const FloorMemoryConfig& config) : config_(config), map_(config.kept) {}

@@ -19,6 +19,18 @@ void LaserBuild::Describe(Archive& a) {
   a.Number("thickness_m", thickness_m, {"m", 0.0005, 0.05, "thickness of the sheet of light"});
 }
 
+std::vector<LaserBuild> ShippedLasers() {
+  LaserBuild near, far;
+  far.pitch_rad = 0.232;
+  return {near, far};
+}
+
+void DescribeLasers(Archive& a, std::vector<LaserBuild>& lasers) {
+  a.List("lasers", lasers, "line lasers for obstacles, each with its plane; all shine at once");
+  if (lasers.empty() || lasers.size() > kMostLasers)
+    a.Refuse("lasers", "1 to 4 line lasers, a table [[lasers]] for each");
+}
+
 Eigen::Hyperplane<double, 3> LaserBuild::Plane() const {
   const Eigen::Isometry3d base_from_fan = BaseFromFan();
   return {base_from_fan.linear().col(2), base_from_fan.translation()};

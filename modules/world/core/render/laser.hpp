@@ -1,13 +1,14 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <vector>
 
 #include "common/archive.hpp"
 #include "common/robot/robot_drawing.hpp"
 
 namespace priamos::world {
 
-/// The laser that draws a line across the floor before the robot, for the third camera to see (section 2 of
+/// A laser that draws a line across the floor before the robot, for the third camera to see (section 2 of
 /// the paper): a fan of light in one plane.
 struct LaserBuild {
   double x_m = kDrawnLaser.x_m, y_m = kDrawnLaser.y_m,
@@ -23,5 +24,14 @@ struct LaserBuild {
   /// The plane of the light in the base frame.
   Eigen::Hyperplane<double, 3> Plane() const;
 };
+
+/// More would not be told apart in one picture.
+inline constexpr std::size_t kMostLasers = 4;
+
+/// Those of KASTOR: the near one meets the floor 2.1 m before the base centre, the far one 3.0 m.
+std::vector<LaserBuild> ShippedLasers();
+
+/// The list `[[lasers]]` of a configuration.
+void DescribeLasers(Archive& a, std::vector<LaserBuild>& lasers);
 
 }  // namespace priamos::world

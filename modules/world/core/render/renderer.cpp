@@ -51,7 +51,7 @@ void RendererConfig::Describe(Archive& a) {
   a.Section("scene", scene, "room and light");
   a.Section("imaging", imaging, "lens blur, sensor and noise");
   a.Section("head", head, "how KASTOR was really built");
-  a.Section("laser", laser, "the line laser for obstacles");
+  DescribeLasers(a, lasers);
 }
 
 class Renderer::Impl {
@@ -133,10 +133,10 @@ class Renderer::Impl {
     scene_.SetMesh(mesh_);
   }
 
-  /// The line lies elsewhere for every pose of the robot.
-  void UploadWithLaser(const Pose2& map_from_base, const Eigen::Vector3d& eye) {
+  /// The lines lie elsewhere for every pose of the robot.
+  void UploadWithLasers(const Pose2& map_from_base, const Eigen::Vector3d& eye) {
     Mesh mesh = mesh_;
-    AppendLaser(config_.laser, map_from_base, *lighting_, mesh);
+    for (const LaserBuild& laser : config_.lasers) AppendLaser(laser, map_from_base, *lighting_, mesh);
     scene_.SetMesh(mesh);
     scene_.SortFrom(eye);
   }
@@ -150,7 +150,7 @@ class Renderer::Impl {
       const Viewpoint at = Between(opening, closing, (k + 0.5) / n);
       const TrueCamera lens = CameraAt(config_.head, camera, at.head);
       const PinholeView view = FineView(lens, at.map_from_base, SubSample(k, n));
-      if (exposure.laser > 0) UploadWithLaser(at.map_from_base, view.map_from_camera.translation());
+      if (exposure.laser > 0) UploadWithLasers(at.map_from_base, view.map_from_camera.translation());
       const cv::Mat& picture = scene_.Render(view);
       AddChannel(picture, 2, kMostLight / (255.0 * n));
       if (reference_ && exposure.camera_light > 0)

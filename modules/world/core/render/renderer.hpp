@@ -23,7 +23,7 @@ struct RendererConfig {
   SceneConfig scene;
   ImagingConfig imaging;
   HeadBuild head;
-  LaserBuild laser{};
+  std::vector<LaserBuild> lasers = ShippedLasers();  ///< all shine in an exposure with the laser on
 
   void Describe(Archive& a);
 };

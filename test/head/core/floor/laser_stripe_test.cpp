@@ -123,5 +123,52 @@ TEST(LaserStripeTest, ATallImageKeepsItsRows) {
   EXPECT_NEAR(points[7].at.y(), 2800, 0.01);
 }
 
+/// Columns from `first` on get a ridge of three rows around `row`, on a ground of 40.
+void DrawRidge(GreyImage& image, int first, int last, int row, int grey) {
+  for (int u = first; u <= last; ++u) {
+    for (int v = row - 1; v <= row + 1; ++v)
+      image.pixels[static_cast<std::size_t>(v) * image.width + u] = static_cast<std::uint8_t>(grey);
+  }
+}
+GreyImage Plain(int width, int height) {
+  return {width, height, std::vector<std::uint8_t>(std::size_t(width) * height, 40)};
+}
+
+/// Where the line is hidden: the rim of a box, brighter than the floor and hardly brighter than its top.
+TEST(LaserStripeTest, AFaintRidgeWhereTheLineIsHiddenIsLeftOut) {
+  GreyImage image = Plain(200, 100);
+  DrawRidge(image, 0, 119, 50, 160);
+  DrawRidge(image, 120, 199, 45, 65);
+  for (const StripePoint& p : StripeFinder().Find(image)) EXPECT_LT(p.at.x(), 120);
+  DrawRidge(image, 120, 199, 45, 90);
+  EXPECT_GT(StripeFinder().Find(image).back().at.x(), 190) << "as bright as the line on something dark";
+}
+
+TEST(LaserStripeTest, TwoLinesComeFromTheTopWhereBothAreSeen) {
+  GreyImage image = Plain(200, 300);
+  DrawRidge(image, 0, 199, 200, 160);
+  DrawRidge(image, 40, 199, 90, 110);
+  const auto dut = StripeFinder().FindInOrder(image, 2);
+  ASSERT_EQ(dut.size(), 2U);
+  ASSERT_FALSE(dut[0].empty());
+  EXPECT_EQ(dut[0].front().at.x(), 40) << "a column with one of them tells nothing";
+  EXPECT_NEAR(dut[0].front().at.y(), 90, 0.1);
+  EXPECT_EQ(dut[1].size(), dut[0].size());
+  EXPECT_NEAR(dut[1].front().at.y(), 200, 0.1);
+}
+
+/// Wherever two ridges lie, also where slabs of rows meet.
+TEST(LaserStripeTest, NoRidgeIsFoundTwice) {
+  for (int row = 20; row < 140; ++row) {
+    GreyImage image = Plain(3, 200);
+    DrawRidge(image, 0, 2, row, 160);
+    DrawRidge(image, 0, 2, row + 30, 120);
+    const auto dut = StripeFinder().Ridges(image, 2);
+    ASSERT_EQ(dut.size(), 6U) << row;
+    EXPECT_NEAR(dut[0].at.y(), row, 0.1);
+    EXPECT_NEAR(dut[1].at.y(), row + 30, 0.1);
+  }
+}
+
 }  // namespace
 }  // namespace priamos::head

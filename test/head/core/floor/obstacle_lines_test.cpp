@@ -16,7 +16,7 @@ using support::LaserFloor;
 class ObstacleLinesTest : public testing::Test {
  protected:
   ObstacleLines Look(const LaserFloor& scene) {
-    return dut_.Find(support::Render(scene, rng_), scene.camera, scene.laser);
+    return dut_.Find(support::Render(scene, rng_), scene.camera, scene.lasers);
   }
   static std::vector<ObstaclePiece> Of(const ObstacleLines& lines, ObstaclePiece::Kind kind) {
     std::vector<ObstaclePiece> pieces;
@@ -110,8 +110,8 @@ TEST_F(ObstacleLinesTest, ACameraThatLooksElsewhereIsBlind) {
   const GreyImage picture = support::Render(scene, rng_);
   const CameraModel up = MakeCameraModel({900, {383.5, 287.5}, -0.05, 0, 0.02},
                                          HeadGeometry().BaseFromCamera(level, kThird, 0.02));
-  EXPECT_EQ(dut_.Find(picture, up, scene.laser).verdict, ObstacleLines::kBlind);
-  const RowRange rows = LineRows(up, scene.laser, 768, 576, {});
+  EXPECT_EQ(dut_.Find(picture, up, scene.lasers).verdict, ObstacleLines::kBlind);
+  const RowRange rows = LineRows(up, scene.lasers[0], {}, {});
   EXPECT_GT(rows.first, rows.last);
 }
 
@@ -135,9 +135,76 @@ TEST_F(ObstacleLinesTest, TheHeightsErrorIsWhatItsSigmaSays) {
 
 TEST_F(ObstacleLinesTest, NothingSensibleGivesNothingHarmful) {
   GreyImage white{768, 576, std::vector<std::uint8_t>(768 * 576, 255)};
-  EXPECT_EQ(dut_.Find(white, scene_.camera, scene_.laser).verdict, ObstacleLines::kBlind);
-  EXPECT_EQ(FindObstacles({}, 0, scene_.camera, scene_.laser, {}).verdict, ObstacleLines::kBlind);
-  EXPECT_EQ(FindObstacles({}, 768, CameraModel{}, LaserPlane{}, {}).verdict, ObstacleLines::kBlind);
+  EXPECT_EQ(dut_.Find(white, scene_.camera, scene_.lasers).verdict, ObstacleLines::kBlind);
+  EXPECT_EQ(FindObstacles({}, scene_.camera, {}).verdict, ObstacleLines::kBlind);
+  const LaserPlane none{};
+  EXPECT_EQ(dut_.Find(white, CameraModel{}, {&none, 1}).verdict, ObstacleLines::kBlind);
+  EXPECT_EQ(dut_.Find(white, scene_.camera, {}).verdict, ObstacleLines::kBlind);
+}
+
+class TwoLinesTest : public ObstacleLinesTest {
+ protected:
+  TwoLinesTest() { scene_ = support::NominalLaserPair(); }
+  void Nod() {
+    scene_.heave_m = rng_.Normal(0.002);
+    scene_.pitch_rad = rng_.Normal(0.002);
+    scene_.roll_rad = rng_.Normal(0.002);
+  }
+};
+
+TEST_F(TwoLinesTest, APlainFloorIsClearHoweverTheRobotNods) {
+  for (int i = 0; i < 30; ++i) {
+    Nod();
+    const ObstacleLines lines = Look(scene_);
+    EXPECT_EQ(lines.verdict, ObstacleLines::kClear) << i;
+    EXPECT_GT(lines.seen_share, 0.95);
+    EXPECT_TRUE(lines.pieces.empty());
+  }
+}
+
+/// One line alone finds it in three of four pictures.
+TEST_F(TwoLinesTest, AStepOfThreeCentimetresAcrossAllOfTheNearLineIsFoundHoweverTheRobotNods) {
+  for (const double height : {0.03, -0.03}) {
+    int found = 0;
+    for (int i = 0; i < 40; ++i) {
+      Nod();
+      scene_.steps = {{1.8, 2.4, -4, 4, height}};
+      for (const ObstaclePiece& p : Look(scene_).pieces)
+        found += p.kind != ObstaclePiece::kMissing && p.laser == 0 && std::abs(p.height_m - height) < 0.008;
+    }
+    EXPECT_GE(found, 39) << height;
+  }
+}
+
+TEST_F(TwoLinesTest, EachLineTellsWhatStandsOnIt) {
+  scene_.steps = {{1.9, 2.3, -0.3, -0.1, 0.03}, {2.7, 3.2, 0.2, 0.5, 0.05}};
+  const auto up = Of(Look(scene_), ObstaclePiece::kUp);
+  ASSERT_EQ(up.size(), 2U);
+  EXPECT_EQ(up[0].laser, 0);
+  EXPECT_NEAR(up[0].height_m, 0.03, 3 * up[0].sigma_height_m);
+  EXPECT_EQ(up[1].laser, 1);
+  EXPECT_NEAR(up[1].height_m, 0.05, 3 * up[1].sigma_height_m);
+  EXPECT_NEAR(up[1].right.x(), 0.46 + 0.55 / std::tan(std::atan2(0.6, 2.54)), 0.03);
+}
+
+/// A box that reaches from before the near line to the far one lifts both: told apart by their order.
+TEST_F(TwoLinesTest, ATallBoxBeforeBothLinesShowsBothOnItsFront) {
+  scene_.steps = {{1.9, 3.5, -0.2, 0.2, 0.5}};
+  const auto up = Of(Look(scene_), ObstaclePiece::kUp);
+  ASSERT_EQ(up.size(), 2U);
+  for (const ObstaclePiece& p : up) {
+    EXPECT_NEAR(p.right.x(), 1.9, 0.02);
+    const double slope = p.laser == 0 ? std::tan(0.35) : 0.6 / 2.54;
+    EXPECT_NEAR(p.height_m, 0.6 - slope * (1.9 - 0.46), 0.01);
+  }
+}
+
+TEST_F(TwoLinesTest, ALineOutsideOfThePictureIsNotMissing) {
+  scene_.camera = support::ThirdCamera(0.21);
+  const ObstacleLines lines = Look(scene_);
+  EXPECT_EQ(lines.verdict, ObstacleLines::kClear);
+  EXPECT_GT(lines.seen_share, 0.95) << "of the far line";
+  EXPECT_TRUE(lines.pieces.empty());
 }
 
 }  // namespace

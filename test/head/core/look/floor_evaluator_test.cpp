@@ -17,7 +17,7 @@ class FloorEvaluatorTest : public testing::Test {
   static HeadModel HeadWithLaser() {
     HeadModel head;
     head.lenses[kThird] = LensTable({0}, {0}, {LensState{.focal_px = 900, .k1 = -0.05, .pupil_m = 0.02}});
-    head.laser = support::NominalLaserFloor().laser;
+    head.lasers = support::NominalLaserFloor().lasers;
     return head;
   }
   /// Picture of a box `height_m` high 2 m ahead; negative: a pit.
@@ -63,7 +63,7 @@ TEST_F(FloorEvaluatorTest, ALostPictureSaysNothingAndForgetsNothing) {
 
 TEST_F(FloorEvaluatorTest, WithoutACalibratedLaserOrCameraNothingIsSaid) {
   HeadModel without_camera = head_;
-  head_.laser.reset();
+  head_.lasers.clear();
   EXPECT_FALSE(FloorEvaluator(head_, {}).Evaluate(Picture(0.03), setting_));
   without_camera.lenses[kThird] = LensTable();
   EXPECT_FALSE(FloorEvaluator(without_camera, {}).Evaluate(Picture(0.03), setting_));

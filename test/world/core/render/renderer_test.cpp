@@ -269,7 +269,7 @@ TEST_F(RendererTest, AnUnknownMaterialIsRefusedAndTheOldWorldStays) {
   EXPECT_EQ(before.pixels, Expose({}).pixels);
 }
 
-TEST_F(RendererTest, TheLaserLineIsWhereItsPlaneMeetsTheFloor) {
+TEST_F(RendererTest, EveryLaserLineIsWhereItsPlaneMeetsTheFloor) {
   RendererConfig config = Plain();
   config.scene.x_min_m = -1;
   config.scene.x_max_m = 8;
@@ -277,24 +277,27 @@ TEST_F(RendererTest, TheLaserLineIsWhereItsPlaneMeetsTheFloor) {
   config.scene.y_max_m = 3;
   dut_->SetScene(config, {}, 1);
   Viewpoint at;
-  at.head.tilt_rad = 0.45;
+  at.head.tilt_rad = 0.5;
   const GreyImage image = Expose(at, kThirdCamera, {0.004, 1, 0, 3});
-  const TrueCamera camera = CameraAt(config.head, kThirdCamera, at.head);
-  const double x = config.laser.x_m + config.laser.z_m / std::tan(config.laser.pitch_rad);
-  for (double y = -0.4; y < 0.41; y += 0.02) {
-    const Vector2d place = camera.Project({x, y, 0});
-    double weight = 0, moment = 0;
-    for (int v = -8; v <= 8; ++v) {
-      const double row = std::round(place.y()) + v;
-      const double light = std::max(0.0, Grey(image, {place.x(), row}) - 60);
-      weight += light;
-      moment += light * row;
-    }
-    ASSERT_GT(weight, 100);
-    EXPECT_NEAR(moment / weight, place.y(), 0.1);
-  }
   const GreyImage off = Expose(at, kThirdCamera, {0.004, 1, 0, 0});
-  EXPECT_LT(MeanGrey(off, camera.Project({x, 0, 0}), 1), 60) << "only when it is on";
+  const TrueCamera camera = CameraAt(config.head, kThirdCamera, at.head);
+  ASSERT_EQ(config.lasers.size(), 2U);
+  for (const LaserBuild& laser : config.lasers) {
+    const double x = laser.x_m + laser.z_m / std::tan(laser.pitch_rad);
+    for (double y = -0.4; y < 0.41; y += 0.02) {
+      const Vector2d place = camera.Project({x, y, 0});
+      double weight = 0, moment = 0;
+      for (int v = -8; v <= 8; ++v) {
+        const double row = std::round(place.y()) + v;
+        const double light = std::max(0.0, Grey(image, {place.x(), row}) - 60);
+        weight += light;
+        moment += light * row;
+      }
+      ASSERT_GT(weight, 100);
+      EXPECT_NEAR(moment / weight, place.y(), 0.1);
+    }
+    EXPECT_LT(MeanGrey(off, camera.Project({x, 0, 0}), 1), 60) << "only when it is on";
+  }
 }
 
 // --- the calibration body ---

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <opencv2/core.hpp>
-#include <optional>
+#include <vector>
 
 #include "common/principal_axes.hpp"
 
@@ -14,7 +14,7 @@ namespace priamos::head {
 namespace {
 
 constexpr const char* kFormat = "priamos-calibration-2";
-constexpr std::size_t kMostNodes = 10000;
+constexpr std::size_t kMostNodes = 10000, kMostLasers = 4;
 
 /// What is wrong with the text, as a sentence; caught at the one place where the text comes in.
 struct Damage {
@@ -149,10 +149,7 @@ Eigen::Vector3d ReadVector(const cv::FileNode& parent, const std::string& key) {
   return {values[0], values[1], values[2]};
 }
 
-/// Absent in tables of heads whose laser was not calibrated.
-std::optional<LaserPlane> ReadLaser(const cv::FileNode& root) {
-  const cv::FileNode node = root["laser"];
-  if (node.empty()) return std::nullopt;
+LaserPlane ReadLaser(const cv::FileNode& node) {
   LaserPlane laser;
   laser.normal = ReadVector(node, "normal");
   if (!(std::abs(laser.normal.norm() - 1) < 1e-6)) throw Damage{"laser: 'normal' is not of length 1"};
@@ -163,16 +160,35 @@ std::optional<LaserPlane> ReadLaser(const cv::FileNode& root) {
   return laser;
 }
 
+/// Absent in tables of heads whose lasers were not calibrated. Tables of one laser have `laser`, as they had
+/// when there was only one.
+std::vector<LaserPlane> ReadLasers(const cv::FileNode& root) {
+  const cv::FileNode one = root["laser"], list = root["lasers"];
+  std::vector<LaserPlane> lasers;
+  if (!one.empty()) lasers.push_back(ReadLaser(one));
+  if (list.empty()) return lasers;
+  if (!list.isSeq() || list.size() > kMostLasers) throw Damage{"'lasers' is not a list of 1 to 4"};
+  for (const cv::FileNode& node : list) lasers.push_back(ReadLaser(node));
+  return lasers;
+}
+
 void WriteLaser(cv::FileStorage& file, const LaserPlane& laser) {
   const auto write = [&](const char* key, const Eigen::Vector3d& v) {
     file << key << "[:" << v.x() << v.y() << v.z() << "]";
   };
-  file << "laser"
-       << "{";
+  file << "{:";
   write("normal", laser.normal);
   file << "offset_m" << laser.offset_m;
   write("pivot_m", laser.pivot_m);
   file << "sigma_turn_rad" << laser.sigma_turn_rad << "sigma_shift_m" << laser.sigma_shift_m << "}";
+}
+
+void WriteLasers(cv::FileStorage& file, const std::vector<LaserPlane>& lasers) {
+  if (lasers.empty()) return;
+  file << "lasers"
+       << "[";
+  for (const LaserPlane& laser : lasers) WriteLaser(file, laser);
+  file << "]";
 }
 
 int CountNodes(const HeadModel& model) {
@@ -198,7 +214,7 @@ HeadModel Read(const std::string& yaml) {
       throw Damage{fmt::format("{} camera: {}", kCameraNames[c], damage.reason)};
     }
   }
-  model.laser = ReadLaser(file.root());
+  model.lasers = ReadLasers(file.root());
   model.base_covariance = ReadCovariance(file.root());
   // Written last: a file that was cut off does not have it.
   if (Number(file.root(), "number_of_nodes", 1, kMostNodes) != CountNodes(model))
@@ -218,7 +234,7 @@ std::string ToYaml(const HeadModel& model) {
     file << kCameraNames[c];
     WriteCamera(file, model.geometry.cameras[c], model.lenses[c]);
   }
-  if (model.laser) WriteLaser(file, *model.laser);
+  WriteLasers(file, model.lasers);
   file << "base_covariance"
        << "[:";
   for (int i = 0; i < 36; ++i) file << model.base_covariance(i % 6, i / 6);

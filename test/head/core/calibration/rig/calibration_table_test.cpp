@@ -65,27 +65,43 @@ TEST(CalibrationTable, ACameraThatWasNotCalibratedStaysSo) {
   EXPECT_FALSE(dut->CameraAt(Between(), kThird));
 }
 
-TEST(CalibrationTable, KeepsTheLaserIfThereIsOne) {
+TEST(CalibrationTable, KeepsTheLasersInTheirOrder) {
   HeadModel written = SomeHead();
-  EXPECT_FALSE(FromYaml(ToYaml(written))->laser);
-  written.laser = LaserPlane{{0.6, 0, 0.8}, -0.123456789, {1, 2, 3}, 0.0004, 0.0002};
+  EXPECT_TRUE(FromYaml(ToYaml(written))->lasers.empty());
+  written.lasers = {{{0.6, 0, 0.8}, -0.123456789, {1, 2, 3}, 0.0004, 0.0002},
+                    {{0, 0.6, 0.8}, -0.5, {3, 2, 1}, 0.0003, 0.0001}};
   const auto dut = FromYaml(ToYaml(written));
   ASSERT_TRUE(dut) << dut.reason();
-  ASSERT_TRUE(dut->laser);
-  EXPECT_EQ(dut->laser->normal, written.laser->normal);
-  EXPECT_EQ(dut->laser->offset_m, written.laser->offset_m);
-  EXPECT_EQ(dut->laser->pivot_m, written.laser->pivot_m);
-  EXPECT_EQ(dut->laser->sigma_turn_rad, written.laser->sigma_turn_rad);
-  EXPECT_EQ(dut->laser->sigma_shift_m, written.laser->sigma_shift_m);
-  EXPECT_THAT(FromYaml(Replaced(ToYaml(written), "pivot_m:", "pivot_m: 3 #")).reason(),
-              HasSubstr("'pivot_m'"));
-  written.laser->normal *= 2;
+  ASSERT_EQ(dut->lasers.size(), 2U);
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_EQ(dut->lasers[k].normal, written.lasers[k].normal);
+    EXPECT_EQ(dut->lasers[k].offset_m, written.lasers[k].offset_m);
+    EXPECT_EQ(dut->lasers[k].pivot_m, written.lasers[k].pivot_m);
+    EXPECT_EQ(dut->lasers[k].sigma_turn_rad, written.lasers[k].sigma_turn_rad);
+    EXPECT_EQ(dut->lasers[k].sigma_shift_m, written.lasers[k].sigma_shift_m);
+  }
+  EXPECT_THAT(FromYaml(Replaced(ToYaml(written), "pivot_m:", "pivot:")).reason(), HasSubstr("'pivot_m'"));
+  written.lasers[1].normal *= 2;
   EXPECT_THAT(FromYaml(ToYaml(written)).reason(), HasSubstr("'normal' is not of length 1"));
+  written.lasers.assign(5, written.lasers[0]);
+  EXPECT_THAT(FromYaml(ToYaml(written)).reason(), HasSubstr("'lasers' is not a list of 1 to 4"));
+}
+
+/// As tables were when there was only one.
+TEST(CalibrationTable, ATableWithASingleLaserIsRead) {
+  const std::string yaml =
+      Replaced(ToYaml(SomeHead()), "base_covariance:",
+               "laser:\n   normal: [ 0.6, 0., 0.8 ]\n   offset_m: -0.5\n   pivot_m: [ 1., 2., 3. ]\n"
+               "   sigma_turn_rad: 0.0004\n   sigma_shift_m: 0.0002\nbase_covariance:");
+  const auto dut = FromYaml(yaml);
+  ASSERT_TRUE(dut) << dut.reason();
+  ASSERT_EQ(dut->lasers.size(), 1U);
+  EXPECT_EQ(dut->lasers[0].offset_m, -0.5);
 }
 
 TEST(CalibrationTable, EveryTruncationIsRefused) {
   HeadModel model = SomeHead();
-  model.laser = LaserPlane{};
+  model.lasers = {LaserPlane{}, LaserPlane{}};
   const std::string yaml = ToYaml(model);
   for (std::size_t n = 0; n + 2 < yaml.size(); n += 37)
     EXPECT_FALSE(FromYaml(yaml.substr(0, n))) << "cut after " << n << " bytes";
@@ -106,7 +122,7 @@ TEST(CalibrationTable, DamageIsNamed) {
 
 TEST(CalibrationTable, RandomDamageNeverThrows) {
   HeadModel model = SomeHead();
-  model.laser = LaserPlane{};
+  model.lasers = {LaserPlane{}, LaserPlane{}};
   const std::string yaml = ToYaml(model);
   Rng rng(5);
   for (int i = 0; i < 300; ++i) {
