@@ -10,6 +10,7 @@
 #include "head/core/bodies/free_model_fix.hpp"
 #include "head/core/contours/contour_graph.hpp"
 #include "head/core/doors/door_detection.hpp"
+#include "head/core/doors/image_doors.hpp"
 #include "head/core/edges/edge_segments.hpp"
 #include "head/core/stereo/edge_stereo.hpp"
 #include "head/see/see_options.hpp"
@@ -25,12 +26,25 @@ struct SeenPhotograph {
   ContourGraph contours;
 };
 
-/// Doors in a stereo pair, in a frame on the floor (OnTheFloor). `views` refer to `cameras` and `edges`.
+/// How the first camera stands, as told or as found in the images.
+struct SeenStand {
+  CameraStand stand{};
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of tilt and roll [rad^2]
+  bool is_estimated = false;                             ///< tilt and roll were found
+  double height_sigma_m = 0;
+  std::string height_from{};  ///< what told the height; empty: the person
+};
+
+/// Doors in one image or a stereo pair, in a frame on the floor (OnTheFloor). `views` refer to `cameras` and
+/// `edges`.
 struct SeenDoors {
   std::vector<CameraModel> cameras;
   std::vector<EdgeImage> edges;
   std::vector<CameraView> views;
-  std::vector<DetectedDoor> doors;
+  std::vector<DetectedDoor> doors;  ///< of a pair
+  std::vector<ImageDoor> in_image;  ///< of one image
+  SeenStand stand;
+  std::string why_not;  ///< why tilt and roll are not known; then no doors were looked for
 };
 
 /// A body that was looked for, in the frame of the first camera.
@@ -47,7 +61,7 @@ struct SeeFindings {
   std::vector<CameraModel> cameras;  ///< cameras of the photographs, or none
   std::vector<CameraView> views;     ///< by camera
   std::optional<std::vector<StereoMatch>> matches;  ///< with two or three cameras
-  std::optional<SeenDoors> doors;                   ///< with SeeOptions::stand
+  std::optional<SeenDoors> doors;                   ///< with SeeOptions::doors or stand
   std::optional<SeenLandmark> landmark;             ///< with SeeOptions::landmark
 
   SeeFindings() = default;

@@ -44,7 +44,7 @@ struct ImageDoorOptions {
   double min_log_odds = 1.2;                           ///< log odds wanted
   double same_door_m = 0.6;      ///< middles nearer to each other are one door, such as frame and open leaf
   double corner_sigma_px = 0.3;  ///< deviation of a frame's edges from its corners
-  double foot_share = 0.03;      ///< deviation of seen feet from the floor, of the camera's height
+  double foot_share = 0.045;     ///< deviation of seen feet from the floor, of the camera's height
   OutlineOptions outlines{};
 };
 

@@ -97,7 +97,7 @@ const char* Describe(HeightSource source) {
     case HeightSource::kNothing:
       break;
   }
-  return "nothing: no door was seen";
+  return "nothing, as no door was seen";
 }
 
 PairStand FindPairStand(const CameraView& left, const CameraView& right,

@@ -22,19 +22,15 @@ UprightVote VoteOf(const CameraView& view, const ViewLine& line, double capped_p
   return vote;
 }
 
-}  // namespace
-
-double UprightVote::Sigma(const Eigen::Vector3d& direction) const {
-  return std::hypot(noise[0].dot(direction), noise[1].dot(direction));
-}
-
-std::vector<UprightVote> SteepEdges(std::span<const CameraView> views, const UprightOptions& options) {
+std::vector<UprightVote> Edges(std::span<const CameraView> views, const UprightOptions& options,
+                               bool are_steep) {
   std::vector<UprightVote> votes;
   const double slope = std::tan(options.max_slope_rad);
   for (const CameraView& view : views) {
     for (const ViewLine& line : view.lines) {
       const Eigen::Vector2d d = line.q - line.p;
-      if (!(line.length_px >= options.min_length_px) || std::abs(d.x()) > slope * std::abs(d.y())) continue;
+      if (!(line.length_px >= options.min_length_px)) continue;
+      if ((std::abs(d.x()) <= slope * std::abs(d.y())) != are_steep) continue;
       const UprightVote vote = VoteOf(view, line, options.capped_length_px);
       if (vote.normal.allFinite() && vote.noise[0].allFinite() && vote.noise[1].allFinite())
         votes.push_back(vote);
@@ -43,6 +39,20 @@ std::vector<UprightVote> SteepEdges(std::span<const CameraView> views, const Upr
   std::stable_sort(votes.begin(), votes.end(),
                    [](const UprightVote& a, const UprightVote& b) { return a.weight > b.weight; });
   return votes;
+}
+
+}  // namespace
+
+double UprightVote::Sigma(const Eigen::Vector3d& direction) const {
+  return std::hypot(noise[0].dot(direction), noise[1].dot(direction));
+}
+
+std::vector<UprightVote> SteepEdges(std::span<const CameraView> views, const UprightOptions& options) {
+  return Edges(views, options, true);
+}
+
+std::vector<UprightVote> OtherEdges(std::span<const CameraView> views, const UprightOptions& options) {
+  return Edges(views, options, false);
 }
 
 }  // namespace priamos::head

@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "head/core/stand/level_directions.hpp"
+
 namespace priamos::head {
 namespace {
 
@@ -16,6 +18,8 @@ constexpr double kTellingShare = 0.1;     ///< of all directions, within which a
 constexpr double kDifferent = 5;          ///< standard deviations: another direction
 constexpr double kDifferent_rad = 0.035;  ///< at least
 constexpr std::size_t kFewestEdges = 4;
+constexpr int kFewestLevel = 6;        ///< level edges that may say something about uprights
+constexpr double kUprightsKept = 0.5;  ///< share of their votes that must still agree
 
 using Votes = std::vector<UprightVote>;
 
@@ -134,6 +138,20 @@ double LargestSigma(const Eigen::Matrix3d& covariance) {
   return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues()[2]);
 }
 
+/// Fits uprights and level edges together, where there are enough of these and the uprights do not object.
+void UseLevelEdges(std::span<const CameraView> views, const Votes& votes, const Election& election,
+                   const UprightOptions& options, VerticalDirection& found) {
+  const Votes others = OtherEdges(views, options);
+  const LevelFrame start{found.up, FindLevelDirections(others, found.up), {}};
+  const LevelFrame fitted = FitLevelFrame(votes, others, start, options);
+  if (fitted.n_level < kFewestLevel || election.Score(fitted.up) < kUprightsKept * election.Score(found.up))
+    return;
+  found.up = fitted.up;
+  found.covariance = fitted.covariance;
+  found.n_edges = fitted.n_upright;
+  found.walls = fitted.walls;
+}
+
 }  // namespace
 
 const char* Describe(UprightVerdict verdict) {
@@ -161,11 +179,16 @@ VerticalDirection FindVertical(std::span<const CameraView> views, const UprightO
   if (scores.empty()) return {};
   const auto best = std::max_element(scores.begin(), scores.end());
   VerticalDirection found = election.Refined(proposals[best - scores.begin()]);
-  if (found.n_edges < static_cast<int>(kFewestEdges) || election.LogChance(found) > options.max_log_chance)
-    return {UprightVerdict::kTooFew, {}, {}, found.n_edges};
+  if (found.n_edges < static_cast<int>(kFewestEdges) || election.LogChance(found) > options.max_log_chance) {
+    VerticalDirection none;
+    none.n_edges = found.n_edges;
+    return none;
+  }
   found.verdict = UprightVerdict::kFound;
+  const Eigen::Vector3d elected = found.up;
+  UseLevelEdges(views, votes, election, options, found);
   if (!(LargestSigma(found.covariance) < options.max_sigma_rad)) found.verdict = UprightVerdict::kVague;
-  const double bound = options.rival_share * election.Score(found.up);
+  const double bound = options.rival_share * election.Score(elected);
   for (std::size_t i = 0; i < proposals.size(); ++i)
     if (scores[i] > bound && election.IsAnother(found, proposals[i]) &&
         election.Score(proposals[i], &found.up) > bound)

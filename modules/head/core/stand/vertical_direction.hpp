@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <span>
+#include <vector>
 
 #include "head/core/stand/upright_votes.hpp"
 
@@ -24,6 +25,9 @@ struct VerticalDirection {
   Eigen::Vector3d up = -Eigen::Vector3d::UnitY();        ///< unit; frame of the first camera: y is down in it
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of `up`, none along it
   int n_edges = 0;                                       ///< that agree
+  /// Level directions in which many edges run, the heavier one first: those of walls. Unit; two at most,
+  /// at any angle.
+  std::vector<Eigen::Vector3d> walls{};
 };
 
 /// The direction in which most upright edges of calibrated cameras agree: votes of pairs of the longest
