@@ -61,10 +61,6 @@ class Drawing {
   test::ExactView picture_;
 };
 
-Eigen::Vector3d UpOf(const CameraStand& stand) {
-  return BaseFromCamera(stand).linear().transpose() * Eigen::Vector3d::UnitZ();
-}
-
 RC_GTEST_PROP(FindVertical, TheTruthIsWithinTheCovarianceWhateverElseIsInTheImage, ()) {
   const CameraStand stand{1.2, *rc::gen::inRange(-200, 200) * 1e-3, *rc::gen::inRange(-80, 80) * 1e-3};
   Drawing drawing(stand, *rc::gen::inRange(0, 100000));
