@@ -12,7 +12,6 @@
 #include "head/files/camera_file.hpp"
 #include "head/files/image_file.hpp"
 #include "head/files/landmark_file.hpp"
-#include "head/see/find_doors.hpp"
 #include "head/see/see_landmark.hpp"
 
 namespace priamos::head {

@@ -9,10 +9,9 @@
 
 #include "head/core/bodies/free_model_fix.hpp"
 #include "head/core/contours/contour_graph.hpp"
-#include "head/core/doors/door_detection.hpp"
-#include "head/core/doors/image_doors.hpp"
 #include "head/core/edges/edge_segments.hpp"
 #include "head/core/stereo/edge_stereo.hpp"
+#include "head/see/find_doors.hpp"
 #include "head/see/see_options.hpp"
 
 namespace priamos::head {
@@ -24,27 +23,6 @@ struct SeenPhotograph {
   EdgeImage edges;
   double blur_px = 0;  ///< BlurredEdges::MedianBlur of a soft one
   ContourGraph contours;
-};
-
-/// How the first camera stands, as told or as found in the images.
-struct SeenStand {
-  CameraStand stand{};
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();  ///< of tilt and roll [rad^2]
-  bool is_estimated = false;                             ///< tilt and roll were found
-  double height_sigma_m = 0;
-  std::string height_from{};  ///< what told the height; empty: the person
-};
-
-/// Doors in one image or a stereo pair, in a frame on the floor (OnTheFloor). `views` refer to `cameras` and
-/// `edges`.
-struct SeenDoors {
-  std::vector<CameraModel> cameras;
-  std::vector<EdgeImage> edges;
-  std::vector<CameraView> views;
-  std::vector<DetectedDoor> doors;  ///< of a pair
-  std::vector<ImageDoor> in_image;  ///< of one image
-  SeenStand stand;
-  std::string why_not;  ///< why tilt and roll are not known; then no doors were looked for
 };
 
 /// A body that was looked for, in the frame of the first camera.

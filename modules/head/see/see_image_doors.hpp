@@ -4,7 +4,7 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 
-#include "head/see/see_findings.hpp"
+#include "head/see/find_doors.hpp"
 #include "head/see/see_page.hpp"
 
 namespace priamos::head {
