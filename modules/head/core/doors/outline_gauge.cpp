@@ -17,7 +17,7 @@ Eigen::Vector3d Gauge(const CameraModel& camera, const Seen& seen) {
   const CameraModel level = OnTheFloor(camera, {0, seen[4], seen[5]});
   const Eigen::Matrix3d rays = level.image_from_base.leftCols<3>().inverse();
   Eigen::Matrix2d at;
-  for (int side = 0; side < 2; ++side) {
+  for (Eigen::Index side = 0; side < 2; ++side) {
     const Eigen::Vector3d ray = rays * seen.segment<2>(2 * side).homogeneous();
     at.col(side) = ray.head<2>() / ray.z();
   }

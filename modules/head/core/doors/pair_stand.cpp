@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "head/core/doors/image_doors.hpp"
+
 namespace priamos::head {
 namespace {
 
@@ -14,8 +16,8 @@ constexpr double kLowest_m = 0.7, kHighest_m = 1.9, kTried_m = 0.1;  ///< height
 constexpr double kUsual_m = 1.3;
 constexpr double kNearDoor_m = 0.12;   ///< an upright so near to a door's belongs to it
 constexpr double kNearFloor_m = 0.25;  ///< its lower end is so near to the floor, before that is known
-constexpr double kFootSigma_m = 0.03;
-constexpr double kPictureRim_px = 8;  ///< what ends here may go on outside of the picture
+constexpr double kFootSigma_m = 0.12;  ///< what both cameras see of an upright rarely ends at the floor
+constexpr double kPictureRim_px = 8;   ///< what ends here may go on outside of the picture
 
 /// Both views from a floor below the left camera.
 struct Standing {
@@ -86,6 +88,17 @@ void Refine(const Standing& standing, const std::vector<DetectedDoor>& doors,
   found.height_sigma_m = options.height_sigma_m / std::sqrt(n);
 }
 
+/// All doors of the left image tell the height together, those too far away for stereo, too.
+bool UseOneImage(const CameraView& left, PairStand& found) {
+  const DoorsInImage alone = DetectDoorsInImage(left, found.stand, TiltAndRollCovariance(found.vertical),
+                                                std::nullopt, ImageDoorOptions{});
+  if (alone.doors.empty()) return false;
+  found.source = HeightSource::kLintels;
+  found.stand.height_m = alone.height_m;
+  found.height_sigma_m = alone.height_sigma_m;
+  return true;
+}
+
 }  // namespace
 
 const char* Describe(HeightSource source) {
@@ -109,6 +122,7 @@ PairStand FindPairStand(const CameraView& left, const CameraView& right,
   const std::array<const CameraView*, 2> own{&left, &right};
   found.stand = StandOf(found.vertical.up, kUsual_m);
   found.height_sigma_m = (kHighest_m - kLowest_m) / 2;
+  if (UseOneImage(left, found)) return found;
   double best = 0;
   std::vector<DetectedDoor> doors;
   for (double height = kLowest_m; height < kHighest_m + kTried_m / 2; height += kTried_m) {

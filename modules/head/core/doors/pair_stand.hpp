@@ -27,8 +27,9 @@ struct PairStand {
 };
 
 /// Stand of a stereo pair in whose images doors are to be found (DetectDoors). Both views are in the left
-/// camera's own frame. Tilt and roll come from the upright edges of both images, the height from what stereo
-/// tells of the doors themselves: where their uprights end, and how high lintels usually are.
+/// camera's own frame. Tilt and roll come from the edges of both images, the height from the doors of the
+/// left image (DetectDoorsInImage); where it shows none, from what stereo tells of doors: where their
+/// uprights end, and how high lintels usually are.
 PairStand FindPairStand(const CameraView& left, const CameraView& right, const DoorDetectionOptions& options);
 
 }  // namespace priamos::head

@@ -143,7 +143,7 @@ void LookAsPair(const CorridorLook& look, const HeldTruth& truth, const std::arr
   const head::PairStand found = head::FindPairStand(own[0], own[1], {});
   count.pair_s += CpuSeconds() - start;
   count.pair.Add(found.vertical, truth.stand());
-  if (found.source == head::HeightSource::kFeet)
+  if (found.source != head::HeightSource::kNothing)
     count.pair.height_m.push_back(std::abs(found.stand.height_m - truth.stand().height_m));
   if (found.vertical.verdict == head::UprightVerdict::kFound)
     LookWith(found.stand, look, truth, own, count.estimated);
