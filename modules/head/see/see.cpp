@@ -5,9 +5,11 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "head/see/find_doors.hpp"
 #include "head/see/see_doors.hpp"
 #include "head/see/see_drawing.hpp"
 #include "head/see/see_findings.hpp"
+#include "head/see/see_image_doors.hpp"
 #include "head/see/see_json.hpp"
 #include "head/see/see_landmark.hpp"
 #include "head/see/see_output.hpp"
@@ -24,9 +26,13 @@ std::vector<PlannedDrawing> Plan(const SeeOptions& options) {
   std::vector<PlannedDrawing> drawings;
   for (const std::string& image : options.images) drawings.push_back({image, "edges"});
   if (options.cameras.size() > 1) drawings.push_back({options.images.front(), "stereo"});
-  if (!options.stand.empty()) drawings.push_back({options.images.front(), "doors"});
+  if (WantsDoors(options)) drawings.push_back({options.images.front(), "doors"});
   if (!options.landmark.empty()) drawings.push_back({options.images.front(), "landmark"});
   return drawings;
+}
+
+bool IsOfOneImage(const SeenDoors& seen) {
+  return seen.cameras.size() == 1;
 }
 
 SeeOutput OutputOf(const SeeOptions& options) {
@@ -45,7 +51,10 @@ void Draw(const SeeFindings& findings, SeeOutput& output) {
   if (findings.matches)
     output.Add(first.file, "stereo", DrawMatches(greys, findings.views, *findings.matches).ToPng());
   if (const auto& seen = findings.doors)
-    output.Add(first.file, "doors", DrawDoors(greys, seen->views, seen->doors).ToPng());
+    output.Add(
+        first.file, "doors",
+        (IsOfOneImage(*seen) ? DrawImageDoors(first.grey, *seen) : DrawDoors(greys, seen->views, seen->doors))
+            .ToPng());
   if (const auto& seen = findings.landmark)
     output.Add(first.file, "landmark",
                DrawLandmark(first.grey, findings.views, seen->body, seen->believed, seen->fix).ToPng());
@@ -59,7 +68,10 @@ nlohmann::ordered_json ToJson(const SeeFindings& findings) {
   }
   nlohmann::ordered_json all{{"images", images}};
   if (findings.matches) all["matches"] = MatchesToJson(findings.views, *findings.matches);
-  if (findings.doors) all["doors"] = DoorsToJson(findings.doors->doors);
+  if (const auto& seen = findings.doors) {
+    all["stand"] = StandToJson(*seen);
+    all["doors"] = IsOfOneImage(*seen) ? ImageDoorsToJson(*seen) : DoorsToJson(seen->doors);
+  }
   if (findings.landmark) all["landmark"] = LandmarkToJson(findings.views, findings.landmark->fix);
   return all;
 }
@@ -69,7 +81,11 @@ std::string ToText(const SeeFindings& findings, const std::string& model_file, c
   for (const SeenPhotograph& p : findings.photographs) text += EdgesText(p, output.FileOf(p.file, "edges"));
   const std::string& first = findings.photographs.front().file;
   if (findings.matches) text += MatchesText(*findings.matches, output.FileOf(first, "stereo"));
-  if (findings.doors) text += DoorsText(findings.doors->doors, output.FileOf(first, "doors"));
+  if (const auto& seen = findings.doors) {
+    const std::string drawing = output.FileOf(first, "doors");
+    text += StandText(*seen);
+    text += IsOfOneImage(*seen) ? ImageDoorsText(*seen, drawing) : DoorsText(seen->doors, drawing);
+  }
   if (findings.landmark)
     text += LandmarkText(model_file, findings.landmark->fix, output.FileOf(first, "landmark"));
   return text;
@@ -86,7 +102,8 @@ SeeReport See(const SeeOptions& options) {
   Draw(findings, output);
   output.Write();
   SeeReport report;
-  report.found = !findings.landmark || findings.landmark->fix.verdict == Verdict::kFound;
+  report.found = (!findings.landmark || findings.landmark->fix.verdict == Verdict::kFound) &&
+                 (!findings.doors || findings.doors->why_not.empty());
   if (!findings.note.empty()) report.notes = findings.note + "\n";
   report.text = ToText(findings, options.landmark, output);
   if (options.json.empty()) return report;

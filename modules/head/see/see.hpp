@@ -8,7 +8,7 @@ namespace priamos::head {
 
 /// What a person is answered.
 struct SeeReport {
-  bool found = true;  ///< false: a landmark was asked for and not found
+  bool found = true;  ///< false: a landmark was asked for and not found, or doors and not which way is up
   std::string text;   ///< what was found, and where each drawing lies; whole lines
   std::string notes;  ///< what was done to the images before they were looked at; whole lines, mostly none
   std::string json;   ///< all that was found, when SeeOptions::json is "-"

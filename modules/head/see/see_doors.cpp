@@ -28,21 +28,11 @@ std::array<Eigen::Vector2d, 4> Outline(const CameraModel& camera, const Detected
 
 }  // namespace
 
-std::vector<CameraModel> OnTheFloor(std::vector<CameraModel> cameras, const std::vector<double>& stand) {
+CameraStand StandFrom(const std::vector<double>& stand) {
   const auto finite = [](double v) { return std::isfinite(v); };
   if (stand.empty() || stand.size() > 3 || !std::all_of(stand.begin(), stand.end(), finite) || stand[0] <= 0)
     throw std::runtime_error("expected where the cameras stand: height [m], tilt and roll [deg]");
-  const double tilt = stand.size() > 1 ? Radians(stand[1]) : 0,
-               roll = stand.size() > 2 ? Radians(stand[2]) : 0;
-  Eigen::Matrix3d level;  // axes of an upright camera (x right, y down, z forward) in the base frame
-  level << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  Eigen::Isometry3d base_from_camera(Eigen::Translation3d(0, 0, stand[0]));
-  base_from_camera.rotate(Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitY()) *
-                          Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()));
-  base_from_camera.rotate(level);
-  for (CameraModel& camera : cameras)
-    camera.image_from_base = (camera.image_from_base * base_from_camera.inverse().matrix()).eval();
-  return cameras;
+  return {stand[0], stand.size() > 1 ? Radians(stand[1]) : 0, stand.size() > 2 ? Radians(stand[2]) : 0};
 }
 
 SeePage DrawDoors(std::span<const cv::Mat> greys, std::span<const CameraView> views,

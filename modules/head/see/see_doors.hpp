@@ -6,15 +6,15 @@
 #include <vector>
 
 #include "head/core/doors/door_detection.hpp"
+#include "head/core/stand/camera_stand.hpp"
 #include "head/see/see_page.hpp"
 
 namespace priamos::head {
 
-/// Rectified cameras as the base frame sees them (x forward, y left, z up, origin on the floor below the left
-/// camera): `stand` is the left camera's height [m], tilt [deg, down is positive] and roll [deg, right side
-/// down is positive]; tilt and roll may be left out. Throws std::runtime_error unless these are one to three
-/// finite numbers, the height positive.
-std::vector<CameraModel> OnTheFloor(std::vector<CameraModel> cameras, const std::vector<double>& stand);
+/// How a camera stands: height [m], tilt [deg, down is positive] and roll [deg, right side down is positive];
+/// tilt and roll may be left out. Throws std::runtime_error unless these are one to three finite numbers, the
+/// height positive.
+CameraStand StandFrom(const std::vector<double>& stand);
 
 /// The images side by side with their edges (thin) and the doors: uprights and lintel, numbered from 1.
 SeePage DrawDoors(std::span<const cv::Mat> greys, std::span<const CameraView> views,

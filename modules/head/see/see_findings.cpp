@@ -12,14 +12,12 @@
 #include "head/files/camera_file.hpp"
 #include "head/files/image_file.hpp"
 #include "head/files/landmark_file.hpp"
-#include "head/see/see_doors.hpp"
 #include "head/see/see_landmark.hpp"
 
 namespace priamos::head {
 namespace {
 
 constexpr int kSmallest_px = 32;
-constexpr double kFarthestDoor_m = 12;  // nobody drives by these: far ones may be uncertain
 
 std::vector<cv::Mat> GreysOf(const std::vector<SeenPhotograph>& photographs) {
   std::vector<cv::Mat> greys;
@@ -67,7 +65,7 @@ std::vector<CameraModel> ReadCameras(const SeeOptions& options,
                                      const std::vector<SeenPhotograph>& photographs) {
   if (options.cameras.empty()) return {};
   const std::size_t n = photographs.size();
-  const std::size_t fewest = options.landmark.empty() ? 2 : 1;
+  const std::size_t fewest = options.landmark.empty() && !WantsDoors(options) ? 2 : 1;
   const auto check_number = [&](std::size_t n_cameras) {
     if (n_cameras != n || n < fewest || n > 3)
       throw std::runtime_error(fmt::format("expected {} images and a camera for each, got {} and {}",
@@ -139,31 +137,6 @@ std::vector<StereoMatch> MatchViews(const SeeFindings& findings) {
                            : MatchTrinocular(views[0], views[1], views[2], {});
 }
 
-DoorDetectionOptions DoorOptions(double max_width_m) {
-  DoorDetectionOptions options;
-  options.stereo.max_range_m = kFarthestDoor_m;
-  if (const double wider_m = max_width_m - options.max_width_m; wider_m > 0) {  // one leaf or two
-    options.width_sigma_m += wider_m / 2;
-    options.usual_width_m += wider_m / 2;
-  }
-  options.max_width_m = max_width_m;
-  return options;
-}
-
-SeenDoors FindDoors(const SeeOptions& options, const SeeFindings& findings) {
-  if (findings.cameras.size() != 2)
-    throw std::runtime_error(fmt::format("expected two images and their cameras to look for doors, got {}",
-                                         findings.cameras.size()));
-  SeenDoors seen{OnTheFloor(findings.cameras, options.stand), std::vector<EdgeImage>(2), {}, {}};
-  const auto edge_options = ForOneScene(findings.Greys(), DoorEdges());
-  for (int c = 0; c < 2; ++c) {
-    EdgeOperator(edge_options[c]).Extract(findings.photographs[c].grey, seen.edges[c]);
-    seen.views.push_back(MakeView(seen.cameras[c], seen.edges[c]));
-  }
-  seen.doors = DetectDoors(seen.views[0], seen.views[1], DoorOptions(options.max_door_width_m));
-  return seen;
-}
-
 SeenLandmark FindLandmark(const SeeOptions& options, const std::vector<CameraView>& views) {
   const Polyhedron body = LoadPolyhedron(options.landmark);
   const Eigen::Isometry3d believed = PoseFromSix(options.at);
@@ -189,7 +162,7 @@ SeeFindings FindAll(const SeeOptions& options) {
     RefuseSameImage(findings.photographs);
     findings.matches = MatchViews(findings);
   }
-  if (!options.stand.empty()) findings.doors = FindDoors(options, findings);
+  if (WantsDoors(options)) findings.doors = FindDoors(options, findings.Greys(), findings.cameras);
   if (!options.landmark.empty()) findings.landmark = FindLandmark(options, findings.views);
   return findings;
 }

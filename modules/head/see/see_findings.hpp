@@ -9,9 +9,9 @@
 
 #include "head/core/bodies/free_model_fix.hpp"
 #include "head/core/contours/contour_graph.hpp"
-#include "head/core/doors/door_detection.hpp"
 #include "head/core/edges/edge_segments.hpp"
 #include "head/core/stereo/edge_stereo.hpp"
+#include "head/see/find_doors.hpp"
 #include "head/see/see_options.hpp"
 
 namespace priamos::head {
@@ -23,14 +23,6 @@ struct SeenPhotograph {
   EdgeImage edges;
   double blur_px = 0;  ///< BlurredEdges::MedianBlur of a soft one
   ContourGraph contours;
-};
-
-/// Doors in a stereo pair, in a frame on the floor (OnTheFloor). `views` refer to `cameras` and `edges`.
-struct SeenDoors {
-  std::vector<CameraModel> cameras;
-  std::vector<EdgeImage> edges;
-  std::vector<CameraView> views;
-  std::vector<DetectedDoor> doors;
 };
 
 /// A body that was looked for, in the frame of the first camera.
@@ -47,7 +39,7 @@ struct SeeFindings {
   std::vector<CameraModel> cameras;  ///< cameras of the photographs, or none
   std::vector<CameraView> views;     ///< by camera
   std::optional<std::vector<StereoMatch>> matches;  ///< with two or three cameras
-  std::optional<SeenDoors> doors;                   ///< with SeeOptions::stand
+  std::optional<SeenDoors> doors;                   ///< with SeeOptions::doors or stand
   std::optional<SeenLandmark> landmark;             ///< with SeeOptions::landmark
 
   SeeFindings() = default;

@@ -14,7 +14,8 @@ struct SeeOptions {
   /// A free landmark model (LoadPolyhedron) to look for; needs cameras, one is enough.
   std::string landmark{};
   std::vector<double> at{};        ///< where it is believed to be (PoseFromSix)
-  std::vector<double> stand{};     ///< how the first of two cameras stands (OnTheFloor): doors are looked for
+  bool doors = false;              ///< doors are looked for; how the cameras stand is found, too
+  std::vector<double> stand{};     ///< how the first camera stands (StandFrom): doors are looked for
   double max_door_width_m = 1.35;  ///< double doors are wider
   std::string output{};  ///< folder or file for the drawings; empty: beside their images (SeeOutput)
   bool force = false;    ///< replaces files that are there already, but never an image that is read

@@ -91,11 +91,13 @@ TrueDoor AsSeen(const DoorPlan& plan, const world::DoorWork& work, const Eyes& e
   return door;
 }
 
-std::vector<TrueDoor> DoorsAhead(const CorridorPlan& plan, const Eyes& eyes, const ToBeFound& rule) {
+std::vector<TrueDoor> DoorsAhead(const CorridorPlan& plan, const Eyes& eyes, const ToBeFound& rule,
+                                 Hold hold) {
   std::vector<TrueDoor> doors;
   for (std::size_t i = 0; i < plan.map.doors.size(); ++i) {
     const TrueDoor door = AsSeen(plan.map.doors[i], plan.world.doors[i], eyes, rule);
-    if (door.middle().x() > 0) doors.push_back(door);
+    const Eigen::Vector3d middle(door.middle().x(), door.middle().y(), 1);
+    if (hold == Hold::kInAHand ? eyes.cameras[0].Depth(middle) > 0 : middle.x() > 0) doors.push_back(door);
   }
   return doors;
 }
@@ -107,7 +109,22 @@ struct Stand {
   std::array<head::CameraModel, 2> exact;
 };
 
-Stand DrawStand(const CorridorPlan& plan, const CalibratedHead& head, Rng& rng) {
+/// Head and mast as a hand would hold them.
+struct Held {
+  double tilt_rad = 0, roll_rad = 0;
+};
+
+Held DrawHeld(Rng& rng) {
+  return {Radians(rng.Uniform(-8, 8)), Radians(rng.Uniform(-2, 2))};
+}
+
+world::HeadBuild BuildOf(const CalibratedHead& head, Hold hold, Rng& rng) {
+  world::HeadBuild build = head.build;
+  if (hold == Hold::kInAHand) build.z_m += rng.Uniform(-0.2, 0.3);
+  return build;
+}
+
+Stand DrawStand(const CorridorPlan& plan, const world::HeadBuild& build, const Held* held, Rng& rng) {
   const double reach = plan.width_m / 2 - kClear_m;
   Stand stand;
   stand.map_from_base = {rng.Uniform(0.5, plan.length_m - 3), rng.Uniform(-reach, reach),
@@ -120,8 +137,10 @@ Stand DrawStand(const CorridorPlan& plan, const CalibratedHead& head, Rng& rng) 
   // The head looks along the corridor or to its sides, whichever way the base is turned.
   stand.setting.pan_rad = std::round((Radians(pan_deg) - stand.map_from_base.yaw) / 0.0001) * 0.0001;
   stand.setting.tilt_rad = std::round(Radians(rng.Uniform(-12, 0)) / 0.0001) * 0.0001;
+  if (held) stand.setting.tilt_rad = held->tilt_rad;
   stand.axes = RestAfter(stand.setting, rng);
-  for (int c = 0; c < 2; ++c) stand.exact[c] = ExactCamera(head.build, c, stand.axes);
+  if (held) stand.axes.lean.roll_rad = held->roll_rad;
+  for (int c = 0; c < 2; ++c) stand.exact[c] = ExactCamera(build, c, stand.axes);
   return stand;
 }
 
@@ -143,27 +162,32 @@ void Photograph(world::Renderer& renderer, const Stand& stand, Rng& rng, Corrido
 CorridorPhotographer::CorridorPhotographer() : graphics_(world::Renderer::HoldGraphics()) {}
 
 std::vector<CorridorLook> CorridorPhotographer::Take(std::uint64_t seed, int looks,
-                                                     const CalibratedHead& head, const ToBeFound& rule) {
-  Rng rng = Rng::Stream(seed, "look");
+                                                     const CalibratedHead& head, const ToBeFound& rule,
+                                                     Hold hold) {
+  Rng rng = Rng::Stream(seed, "look"), hand = Rng::Stream(seed, "hand");
+  const world::HeadBuild build = BuildOf(head, hold, hand);
   const CorridorPlan plan = DrawCorridor(seed);
   const std::vector<world::Solid> solids = world::BuildSolids(plan.map, plan.world, seed);
   world::RendererConfig config;
   config.scene = plan.light;
-  config.head = head.build;
+  config.head = build;
   world::Renderer renderer(config, solids, seed);
   const world::Lighting scene(config.scene, solids);
   std::vector<CorridorLook> all(looks);
   for (int i = 0; i < looks; ++i) {
     CorridorLook& look = all[i];
     Stand stand;
+    const Held held = DrawHeld(hand);
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
-      stand = DrawStand(plan, head, rng);
-      look.doors = DoorsAhead(plan, {stand.exact, scene, stand.map_from_base, rule.border_px}, rule);
+      stand = DrawStand(plan, build, hold == Hold::kInAHand ? &held : nullptr, rng);
+      const std::array judging{stand.exact[0], stand.exact[hold == Hold::kInAHand ? 0 : 1]};
+      look.doors = DoorsAhead(plan, {judging, scene, stand.map_from_base, rule.border_px}, rule, hold);
       const bool any = std::any_of(look.doors.begin(), look.doors.end(),
                                    [](const TrueDoor& door) { return door.is_to_be_found; });
       if (any || i % 2 == 1) break;
     }
     Photograph(renderer, stand, rng, look);
+    look.exact = stand.exact;
     for (int c = 0; c < 2; ++c) look.calibrated[c] = *head.model.CameraAt(stand.setting, c);
   }
   return all;

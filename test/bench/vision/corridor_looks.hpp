@@ -43,8 +43,15 @@ struct TrueDoor {
 /// One stereo pair, taken while driving.
 struct CorridorLook {
   std::array<cv::Mat, 2> images;
-  std::array<head::CameraModel, 2> calibrated;
+  std::array<head::CameraModel, 2> calibrated, exact;
   std::vector<TrueDoor> doors;  ///< all before the robot
+};
+
+/// How the cameras are held.
+enum class Hold {
+  kOnTheRobot,  ///< as its head holds them; to be found are doors that both cameras see
+  kInAHand,     ///< 1 to 1.5 m high, tilted by up to 8 and rolled by up to 2 degrees, told by nobody; to be
+                ///< found are doors that the left camera sees. `calibrated` is right but for the base frame
 };
 
 /// Takes stereo pairs in corridors: the robot stands anywhere where it fits, turned by up to 10 degrees, and
@@ -56,7 +63,7 @@ class CorridorPhotographer {
   /// `looks` pairs of one corridor; every second one where at least one door is to be found, if there is such
   /// a place, the others wherever the robot happens to be.
   std::vector<CorridorLook> Take(std::uint64_t seed, int looks, const CalibratedHead& head,
-                                 const ToBeFound& rule = {});
+                                 const ToBeFound& rule = {}, Hold hold = Hold::kOnTheRobot);
 
  private:
   std::shared_ptr<void> graphics_;

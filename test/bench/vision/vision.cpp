@@ -2,8 +2,8 @@
 // images in the same run.
 //   bench_vision [--quick] [--photo FILE]... [--pair LEFT RIGHT CAMERA CAMERA]... [--only PART]...
 // PART: edges, stereo, photometry, order, door, lens, rooms, repeated, cupboard, budget, deceptions, leaves,
-// bodies, castle, detection, corridor, laser, greys, scene, tables. Prints one line per figure with its
-// bound; exit 1 if one is missed.
+// bodies, castle, detection, corridor, oneimage, laser, greys, scene, tables. Prints one line per figure with
+// its bound; exit 1 if one is missed.
 #include <CLI/CLI.hpp>
 #include <opencv2/core/utility.hpp>
 
@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
       ->check(
           CLI::IsMember({"edges",     "stereo",   "photometry", "order",      "door",   "lens",   "rooms",
                          "repeated",  "cupboard", "budget",     "deceptions", "leaves", "bodies", "castle",
-                         "detection", "corridor", "laser",      "greys",      "scene",  "tables"}));
+                         "detection", "corridor", "oneimage",   "laser",      "greys",  "scene",  "tables"}));
   CLI11_PARSE(app, argc, argv);
   cv::setNumThreads(1);
   const auto wanted = [&](std::string_view part) {
@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
   if (wanted("castle")) BenchCastle(options, figures);
   if (wanted("detection")) BenchDetection(options, figures);
   if (wanted("corridor")) BenchCorridor(options, figures);
+  if (wanted("oneimage")) BenchOneImage(options, figures);
   if (wanted("greys")) BenchGreys(options, figures);
   if (wanted("scene")) BenchScene(options, figures);
   if (wanted("tables")) BenchTables(options, figures);

@@ -74,6 +74,9 @@ void BenchDetection(const VisionOptions& options, Figures& figures);
 /// Doors that no map told of, in corridors with many of them and what resembles them.
 void BenchCorridor(const VisionOptions& options, Figures& figures);
 
+/// The same corridors in one image, or a pair, of cameras that somebody holds in a hand.
+void BenchOneImage(const VisionOptions& options, Figures& figures);
+
 /// What stands in made-up rooms beside walls and doors: boxes found, phantoms, errors of their fronts.
 void BenchScene(const VisionOptions& options, Figures& figures);
 

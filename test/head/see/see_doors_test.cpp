@@ -13,6 +13,12 @@
 namespace priamos::head {
 namespace {
 
+/// The cameras as a base frame on the floor sees them.
+std::vector<CameraModel> Standing(std::vector<CameraModel> cameras, const std::vector<double>& stand) {
+  for (CameraModel& camera : cameras) camera = OnTheFloor(camera, StandFrom(stand));
+  return cameras;
+}
+
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using testing::ElementsAre;
@@ -42,8 +48,8 @@ DetectedDoor Door() {
   return door;
 }
 
-TEST(OnTheFloor, AnUprightCameraLooksAheadFromItsHeight) {
-  const auto dut = OnTheFloor(Pair(), {1.2});
+TEST(StandFrom, AnUprightCameraLooksAheadFromItsHeight) {
+  const auto dut = Standing(Pair(), {1.2});
   ASSERT_EQ(dut.size(), 2u);
   EXPECT_LT((dut[0].Project({5, 0, 1.2}) - kMiddle).norm(), 1e-9);
   EXPECT_NEAR(dut[0].Depth({5, 0.3, 0.7}), 5, 1e-9);
@@ -51,8 +57,8 @@ TEST(OnTheFloor, AnUprightCameraLooksAheadFromItsHeight) {
   EXPECT_LT((dut[0].Project({5, 1, 2.2}) - (kMiddle + Vector2d(-100, -100))).norm(), 1e-9);
 }
 
-TEST(OnTheFloor, TheSecondCameraKeepsItsPlaceBesideTheFirst) {
-  const auto dut = OnTheFloor(Pair(), {1.2, 10, 5});
+TEST(StandFrom, TheSecondCameraKeepsItsPlaceBesideTheFirst) {
+  const auto dut = Standing(Pair(), {1.2, 10, 5});
   // Its optical centre is where the first one's x axis leads.
   const Vector3d first = -dut[0].image_from_base.leftCols<3>().inverse() * dut[0].image_from_base.col(3),
                  second = -dut[1].image_from_base.leftCols<3>().inverse() * dut[1].image_from_base.col(3);
@@ -62,24 +68,24 @@ TEST(OnTheFloor, TheSecondCameraKeepsItsPlaceBesideTheFirst) {
   EXPECT_LT(second.z(), 1.2) << "and lower, as the right side is down";
 }
 
-TEST(OnTheFloor, ATiltedCameraLooksDown) {
-  const auto dut = OnTheFloor(Pair(), {1.2, 30});
+TEST(StandFrom, ATiltedCameraLooksDown) {
+  const auto dut = Standing(Pair(), {1.2, 30});
   // The line of sight meets the floor at height / tan(tilt).
   EXPECT_LT((dut[0].Project({1.2 / std::tan(Radians(30)), 0, 0}) - kMiddle).norm(), 1e-9);
 }
 
-TEST(OnTheFloor, ARolledCameraHasItsRightSideDown) {
-  const auto dut = OnTheFloor(Pair(), {1.2, 0, 10});
+TEST(StandFrom, ARolledCameraHasItsRightSideDown) {
+  const auto dut = Standing(Pair(), {1.2, 0, 10});
   const double side = 2 * std::cos(Radians(10)), down = 2 * std::sin(Radians(10));
   // Two metres along the camera's own x axis, five metres ahead.
   EXPECT_LT((dut[0].Project({5, -side, 1.2 - down}) - (kMiddle + Vector2d(200, 0))).norm(), 1e-9);
 }
 
-TEST(OnTheFloor, WhatIsNoStandIsRefused) {
+TEST(StandFrom, WhatIsNoStandIsRefused) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const std::vector<double>& stand :
        {std::vector<double>{}, {0.0}, {-1.0}, {nan}, {1.2, nan}, {1.2, 0, INFINITY}, {1.2, 0, 0, 0}})
-    EXPECT_EQ(support::ThrownReason([&] { OnTheFloor(Pair(), stand); }),
+    EXPECT_EQ(support::ThrownReason([&] { StandFrom(stand); }),
               "expected where the cameras stand: height [m], tilt and roll [deg]")
         << stand.size();
 }
@@ -124,7 +130,7 @@ class DrawDoorsTest : public testing::Test {
   }
   SeePage Draw(const std::vector<DetectedDoor>& doors) const { return DrawDoors(greys_, views_, doors); }
 
-  const std::vector<CameraModel> cameras_ = OnTheFloor(Pair(), {1.2});
+  const std::vector<CameraModel> cameras_ = Standing(Pair(), {1.2});
   std::array<EdgeImage, 2> edges_;
   std::vector<CameraView> views_;
   const std::vector<cv::Mat> greys_{2, cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(100))};

@@ -18,9 +18,13 @@ void AddImageOptions(CLI::App& verb, head::SeeOptions& options) {
       ->expected(1, 3);
   verb.add_flag("--rectified", options.are_rectified,
                 "the images were rectified by the cameras' projection_matrix; without it they are as taken");
+  verb.add_flag("--doors", options.doors,
+                "look for doors in one image or two; which way is up is found in the images, and the height "
+                "above the floor as far as they tell it");
   verb.add_option("--stand", options.stand,
-                  "look for doors in two images: height of the left camera above the floor [m], its tilt and "
-                  "roll [deg, down and to the right are positive]")
+                  "look for doors: height of the left camera above the floor [m], its tilt and roll [deg, "
+                  "down and to the right are positive]; with --doors the height alone leaves these to the "
+                  "images")
       ->expected(1, 3);
   verb.add_option("--max-door-width", options.max_door_width_m, "wider openings are no doors [m]")
       ->capture_default_str()
@@ -56,6 +60,7 @@ void AddSeeCommand(CLI::App& cli, int& exit_code) {
       "Examples: priamos see photo.jpg --json edges.json\n"
       "          priamos see left.jpg right.jpg --cameras left.yaml right.yaml\n"
       "          priamos see left.jpg right.jpg --cameras left.yaml right.yaml --stand 1.2 -5\n"
+      "          priamos see photo.jpg --cameras camera.yaml --doors\n"
       "          priamos see photo.png --cameras camera.yaml --landmark body.cao --at 0.05 0.1 0.6 115 0 0");
   AddImageOptions(*verb, *options);
   AddResultOptions(*verb, *options);
