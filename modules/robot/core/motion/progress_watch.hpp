@@ -12,6 +12,7 @@ namespace priamos::robot {
 /// and yet comes no nearer to the end of its path.
 class ProgressWatch {
  public:
+  /// For how long a base may get nowhere.
   struct Limits {
     Duration stays;      ///< standing for longer is getting nowhere
     Duration no_nearer;  ///< so is moving for longer without coming nearer to the end
