@@ -42,7 +42,7 @@ PlannerApp::PlannerApp(const PlannerConfig& config, bus::Context& context, Missi
 void PlannerApp::Tick(Time now) {
   TakeReports(now);
   if (auto learned = map_.Tick(now)) missions_.OnLearned(std::move(learned));
-  for (SeenFeature& seen : map_.TakeTold()) missions_.OnTold(std::move(seen));
+  for (const SeenFeature& seen : map_.TakeTold()) missions_.OnTold(seen);
   TakeOrders(now);
   Send(agenda_.Tick(now), now);
   SendStatus(now);

@@ -169,7 +169,8 @@ void GotoMission::OnStop(MissionControl& control, const Stop& stop) {
   if (!blocked) return control.Fail(stop.reason + "; next: look what it is, and order it again");
   if (++departures_ > config_.retries)
     return GiveUp(control, stop.reason + "; next: look what it is, and order it again");
-  if (const auto thing = ThingAhead(control, footprint_, config_.thing_m))
+  // What was taken for larger than it is may have closed the only way.
+  if (const auto thing = ThingAhead(control, footprint_, config_.thing_m / (1 + waits_)))
     planner_.Add("what stopped the robot", *thing);
   Depart(control, stop.reason);
 }

@@ -56,7 +56,7 @@ class MissionTable {
   }
   /// What contradicts the robot's pose; nullopt: nothing does.
   std::optional<std::string> WhyLost() const { return lost_.Why(control_.heard().pose); }
-  void OnTold(SeenFeature seen) { control_.heard_.told.push_back(std::move(seen)); }
+  void OnTold(const SeenFeature& seen) { control_.heard_.told.push_back(seen); }
   /// Notes that the robot's pose was corrected at `stamp`: older poses are not used for planning any more.
   void OnCorrected(Time stamp);
   void OnLeaf(const LeafSighting& leaf) { control_.heard_.leaves.push_back(leaf); }

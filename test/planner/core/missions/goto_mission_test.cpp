@@ -300,6 +300,21 @@ TEST(GotoMissionTest, AGoalThatAThingOfTheMapTakesIsReachedBesideIt) {
   EXPECT_THAT(s.dut.state().text, AllOf(HasSubstr("m beside (4.60, 2.40): "), HasSubstr("seen by the head")));
 }
 
+TEST(GotoMissionTest, WhatStoppedItMayBeSmallerThanItWasTakenFor) {
+  Story s;
+  s.Start({{4.6, 2.4, 0}});
+  s.robot.RunUntilX(3.1);
+  s.robot.blocked = true;
+  s.robot.RunFor(5);
+  EXPECT_EQ(s.dut.state().phase, Phase::kWaiting) << "half a metre of it would reach to the goal";
+  s.robot.RunFor(13);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDriving);
+  EXPECT_THAT(s.dut.state().text, HasSubstr("another way: driving to (4.60, 2.40)"));
+  s.robot.blocked = false;
+  s.robot.RunFor(40);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+}
+
 TEST(GotoMissionTest, FartherFromTheGoalItFails) {
   Story s;
   s.Start({{4.6, 2.4, 0}, false});
