@@ -25,7 +25,8 @@ constexpr std::string_view kNoFile = "-";
 std::vector<PlannedDrawing> Plan(const SeeOptions& options) {
   std::vector<PlannedDrawing> drawings;
   for (const std::string& image : options.images) drawings.push_back({image, "edges"});
-  if (options.cameras.size() > 1) drawings.push_back({options.images.front(), "stereo"});
+  if (!options.cameras.empty() && options.images.size() > 1)
+    drawings.push_back({options.images.front(), "stereo"});
   if (WantsDoors(options)) drawings.push_back({options.images.front(), "doors"});
   if (!options.landmark.empty()) drawings.push_back({options.images.front(), "landmark"});
   return drawings;

@@ -294,6 +294,18 @@ TEST_F(SeeDoorTest, ADoorIsListedAndDrawn) {
   EXPECT_EQ(drawings, 1);
 }
 
+TEST_F(SeeDoorTest, TheHeadsTableIsOfBothImages) {
+  SeeOptions options = Options();
+  for (const std::string& image : options.images) {
+    cv::Mat larger;
+    cv::resize(cv::imread(image, cv::IMREAD_GRAYSCALE), larger, {768, 576});
+    cv::imwrite(image, larger);
+  }
+  options.cameras = {PRIAMOS_SOURCE_DIR "/config/sim/kastor.yaml"};
+  options.stand.clear();
+  EXPECT_THAT(See(options).text, HasSubstr("left-stereo.png"));
+}
+
 TEST_F(SeeDoorTest, WithoutAStandNoDoorsAreLookedFor) {
   SeeOptions options = Options();
   options.stand.clear();

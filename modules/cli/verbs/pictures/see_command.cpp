@@ -19,7 +19,8 @@ void AddImageOptions(CLI::App& verb, head::SeeOptions& options) {
   verb.add_flag("--rectified", options.are_rectified,
                 "the images were rectified by the cameras' projection_matrix; without it they are as taken");
   verb.add_flag("--doors", options.doors,
-                "look for doors in one image or two; which way is up is found in the images, and the height "
+                "look for doors in one image or two; which way is up is found in the images, where "
+                "that is within 34 degrees of up in the picture, and the height "
                 "above the floor as far as they tell it");
   verb.add_option("--stand", options.stand,
                   "look for doors: height of the left camera above the floor [m], its tilt and roll [deg, "

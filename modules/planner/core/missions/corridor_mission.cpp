@@ -46,14 +46,16 @@ void CorridorMissionConfig::Describe(Archive& a) {
   a.Number("back_off_m", back_off_m, {"m", 0, 2, "so far the robot goes back to hear anew what closes it"});
   a.Number("back_off_m_s", back_off_m_s, {"m/s", 0.02, 0.5, "speed of that"});
   limits.Describe(a);
+  a.Section("keep", keep, "looks on the way that keep the pose known");
 }
 
 CorridorMission::CorridorMission(const CorridorMissionConfig& config, const Footprint& footprint,
                                  const GroundPlan& plan)
-    : config_(config), footprint_(footprint), faces_(FacesOf(plan)) {}
+    : config_(config), footprint_(footprint), faces_(FacesOf(plan)), keeper_(config.keep, plan) {}
 
 std::optional<Refusal> CorridorMission::Start(const MissionOrder& order) {
   order_ = order;
+  keeper_.Reset();
   if (order.distance_m >= 0 && order.distance_m <= kMost_m) return std::nullopt;
   return Refusal{fmt::format("a corridor is followed for 0 (to its end) to {:.0f} m", kMost_m)};
 }
@@ -64,6 +66,7 @@ void CorridorMission::Step(MissionControl& control) {
     if (heard.link_up && heard.pose && IsFresh(*heard.pose, control.now())) Depart(control);
     return;
   }
+  keeper_.Step(control);
   driven_m_ = Driven_m(control);
   const bool is_new = heard.pose->stamp > *control.path_sent();
   if (!is_new || !control.OnPath() || heard.drive->mode != DriveMode::kArrived) return;

@@ -7,6 +7,7 @@
 #include "common/ground_plan.hpp"
 #include "planner/core/map/wall_faces.hpp"
 #include "planner/core/missions/mission.hpp"
+#include "planner/core/missions/pose_keeper.hpp"
 #include "planner/core/path/footprint.hpp"
 
 namespace priamos::planner {
@@ -21,6 +22,7 @@ struct CorridorMissionConfig {
   double back_off_m = 0.5;  ///< so far the robot goes back meanwhile, to hear anew what closes the way
   double back_off_m_s = 0.1;
   MissionLimits limits{.resend_path_s = 4, .blocked_s = 4, .silent_s = 8, .limit_s = 1200};
+  PoseKeeperConfig keep;
 
   void Describe(Archive& a);
 };
@@ -29,7 +31,8 @@ struct CorridorMissionConfig {
 /// that it hears. It needs no plan; where there is one, the robot is told the walls along the way. It ends
 /// at the distance that was ordered, or where nothing leaves room for the base any more. Where it should lead
 /// on, the robot waits, backs off and comes again before the corridor counts as closed: who stands there may
-/// leave, and what was heard from one place only may be smaller.
+/// leave, and what was heard from one place only may be smaller. Looks at doors of the plan keep the pose
+/// known, as on any drive: walls tell nothing of how far along them the robot has come.
 class CorridorMission : public Mission {
  public:
   CorridorMission(const CorridorMissionConfig& config, const Footprint& footprint, const GroundPlan& plan);
@@ -55,6 +58,7 @@ class CorridorMission : public Mission {
   CorridorMissionConfig config_;
   Footprint footprint_;
   std::vector<WallFace> faces_;
+  PoseKeeper keeper_;
   MissionOrder order_;
   Pose2 course_;            ///< where the corridor was entered, and in which direction
   double length_m_ = 0;     ///< of the whole way that is to be followed

@@ -66,13 +66,17 @@ Rectangle ThingMet(const Pose2& base, const Eigen::Vector2d& ahead, const std::o
 }
 
 double StandWatch::Stands_s(const MissionControl& control) {
-  constexpr double kProgress_m = 0.05, kLongestStep_s = 0.5;
+  constexpr double kProgress_m = 0.05, kProgress_rad = 0.1, kLongestStep_s = 0.5;
   const DriveReport& drive = *control.heard().drive;
+  const double heading = control.heard().pose->map_from_base.yaw;
   const double step_s = stepped_ ? std::min(Seconds(control.now() - *stepped_), kLongestStep_s) : 0;
   stepped_ = control.now();
   const bool free = drive.limit.empty() || drive.by_echo;
-  if (free != (counts_ == Counts::kFree) || std::abs(drive.remaining_m - stood_at_m_) > kProgress_m) {
+  const bool got_on = std::abs(drive.remaining_m - stood_at_m_) > kProgress_m ||
+                      std::abs(WrapAngle(heading - stood_at_rad_)) > kProgress_rad;
+  if (free != (counts_ == Counts::kFree) || got_on) {
     stood_at_m_ = drive.remaining_m;
+    stood_at_rad_ = heading;
     stood_s_ = 0;
   } else if (IsFresh(*control.heard().pose, control.now())) {
     stood_s_ += step_s;

@@ -40,6 +40,7 @@ class StandWatch {
  private:
   Counts counts_;
   double stood_s_ = 0, stood_at_m_ = 0;  ///< how long without progress, and what was left then
+  double stood_at_rad_ = 0;              ///< and the heading: a base that turns slowly gets on, too
   std::optional<Time> stepped_;
 };
 

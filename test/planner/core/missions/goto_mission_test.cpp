@@ -233,6 +233,18 @@ TEST(GotoMissionTest, ARobotThatComesNoFurtherThoughNothingHoldsItLooksForAnothe
   EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
 }
 
+TEST(GotoMissionTest, ARobotThatTurnsSlowlyOnTheSpotGetsOn) {
+  Story s;
+  s.Start({{5.0, 2.4, 0}});
+  s.robot.RunUntilX(2.0);
+  s.robot.idle = true;
+  for (int i = 0; i < 40; ++i) {
+    s.robot.error.yaw += 0.05 * 0.5;
+    s.robot.RunFor(0.5);
+  }
+  EXPECT_EQ(s.robot.paths.size(), 1u) << s.dut.state().text;
+}
+
 TEST(GotoMissionTest, ATouchEndsIt) {
   Story s;
   s.Start({{5.0, 2.4, 0}});
