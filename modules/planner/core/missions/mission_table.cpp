@@ -9,13 +9,12 @@
 namespace priamos::planner {
 namespace {
 
-/// A report of a touch, after the one before it: somebody who comes to a robot that stood already, without a
-/// way to go, has ended no motion.
+/// A report of a touch, after the one before it: somebody who comes to a robot that has arrived, or stood
+/// already without a way to go, has ended no motion. What it touches itself on the way has it hold.
 DriveReport WithoutBump(DriveReport drive, const std::optional<DriveReport>& before) {
-  const bool stood = before && before->path_id == drive.path_id && !before->touched &&
-                     before->mode == drive.mode &&
-                     (drive.mode == DriveMode::kHolding || drive.mode == DriveMode::kArrived);
-  if (!drive.touched || !stood) return drive;
+  const bool held = before && before->path_id == drive.path_id && !before->touched &&
+                    before->mode == DriveMode::kHolding && drive.mode == DriveMode::kHolding;
+  if (!drive.touched || !(held || drive.mode == DriveMode::kArrived)) return drive;
   drive.touched = false;
   drive.limit = "somebody touched the standing robot";
   return drive;

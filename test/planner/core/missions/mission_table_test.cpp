@@ -87,6 +87,19 @@ TEST(MissionTable, WhoTouchesARobotThatStoodAlreadyEndsNoMission) {
   EXPECT_NE(f.dut.state().phase, Phase::kFailed) << f.dut.state().text;
 }
 
+TEST(MissionTable, WhoTouchesARobotAsItArrivesEndsNoMission) {
+  Frame f;
+  DriveReport drive;
+  drive.path_id = f.Drive().path_id;
+  drive.mode = DriveMode::kFollowing;
+  f.dut.OnDrive(drive, f.now);
+  drive.mode = DriveMode::kArrived;
+  drive.touched = true;
+  f.dut.OnDrive(drive, f.now);
+  f.Step();
+  EXPECT_NE(f.dut.state().phase, Phase::kFailed) << f.dut.state().text;
+}
+
 TEST(MissionTable, ATouchOfAnEarlierMissionDoesNotCount) {
   Frame f;
   const PathOrder path = f.Drive();
