@@ -62,9 +62,11 @@ void GotoMission::Step(MissionControl& control) {
   keeper_.Step(control);
   const bool is_new = heard.pose->stamp > *control.path_sent();
   if (!is_new || !control.OnPath()) return;
-  // A place that is hardly known is none at which a base could be said to have arrived.
-  if (heard.drive->mode == DriveMode::kArrived && keeper_.MayHelp(control)) return;
-  if (heard.drive->mode == DriveMode::kArrived) return Arrive(control);
+  if (heard.drive->mode == DriveMode::kArrived) {
+    // A place that is hardly known is none at which a base could be said to have arrived.
+    if (!keeper_.MayHelp(control)) Arrive(control);
+    return;
+  }
   if (const auto stop = progress_.Step(control, config_.stands_s, config_.idle_s))
     return OnStop(control, *stop);
   if (!control.running()) return;
