@@ -186,16 +186,32 @@ LandmarkFix LandmarkFinder::Find(const LandmarkModel& model, const LandmarkPredi
   std::vector<RefinedPose> poses = RefineAll(BestStarts(model, proposals.poses, views), refinement);
   fix.verdict = Verdict::kTooFewEdges;
   if (poses.empty()) return fix;
-  RefinedPose& best = *std::max_element(
-      poses.begin(), poses.end(), [](const auto& a, const auto& b) { return a.LogOdds() < b.LogOdds(); });
+  std::stable_sort(poses.begin(), poses.end(),
+                   [](const auto& a, const auto& b) { return a.LogOdds() > b.LogOdds(); });
+  const Sought sought{model, prediction, search, views, static_cast<int>(proposals.poses.size())};
+  fix = AnswerWith(sought, refinement, poses, poses.front());
+  // One place has several solutions: few edges that fit well, with one side left out, go before all edges
+  // that fit as shadows let them. The more complete one may be the one that convinces.
+  for (std::size_t i = 1; i < poses.size() && fix.verdict != Verdict::kFound; ++i) {
+    if (IsDistinct(poses[i].base_from_landmark, poses.front().base_from_landmark, options_)) continue;
+    LandmarkFix other = AnswerWith(sought, refinement, poses, poses[i]);
+    if (other.verdict == Verdict::kFound) fix = std::move(other);
+  }
+  return fix;
+}
+
+/// The answer if `chosen` of the refined poses is the right one.
+LandmarkFix LandmarkFinder::AnswerWith(const Sought& sought, const PoseRefinement& refinement,
+                                       const std::vector<RefinedPose>& poses, RefinedPose chosen) const {
+  LandmarkFix fix;
   // Outliers bent the pose from which its edges were looked for.
-  if (RefinedPose again = best; refinement.MatchAgain(again), again.solution.ok) best = std::move(again);
-  fix.rival_log_odds = RivalLogOdds(prediction, search, poses, best);
-  Judge(prediction, search, static_cast<int>(proposals.poses.size()), views.size(), best, fix);
-  const bool may_be_another = !options_.IsSharp(search) && !IsNearlyAll(best.association);
-  if (fix.verdict == Verdict::kFound && may_be_another && IsOtherBreadth(model, views, best))
+  if (RefinedPose again = chosen; refinement.MatchAgain(again), again.solution.ok) chosen = std::move(again);
+  fix.rival_log_odds = RivalLogOdds(sought.prediction, sought.search, poses, chosen);
+  Judge(sought, chosen, fix);
+  const bool may_be_another = !options_.IsSharp(sought.search) && !IsNearlyAll(chosen.association);
+  if (fix.verdict == Verdict::kFound && may_be_another && IsOtherBreadth(sought.model, sought.views, chosen))
     fix.verdict = Verdict::kResidualTooLarge;
-  if (fix.verdict == Verdict::kFound) fix.errors = refinement.Learn(best);
+  if (fix.verdict == Verdict::kFound) fix.errors = refinement.Learn(chosen);
   return fix;
 }
 
@@ -244,8 +260,8 @@ double LandmarkFinder::RivalLogOdds(const LandmarkPrediction& prediction, const 
   return rival;
 }
 
-void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search, int n_tested,
-                           std::size_t n_views, const RefinedPose& best, LandmarkFix& fix) const {
+void LandmarkFinder::Judge(const Sought& sought, const RefinedPose& best, LandmarkFix& fix) const {
+  const Eigen::Matrix3d& search = sought.search;
   fix.base_from_landmark = best.base_from_landmark;
   fix.covariance = OnFloor(best.solution.covariance);
   fix.own_share = best.solution.own_share;
@@ -266,14 +282,14 @@ void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Ma
   const bool side_missing = fix.side_share < options_.min_side_share;
   // Where it can be no other landmark a side in view may be lost, and one alone is enough.
   const bool may_miss = options_.IsSharp(search);
-  const double wanted = options_.min_log_odds + std::log(std::max(n_tested, 1)) +
+  const double wanted = options_.min_log_odds + std::log(std::max(sought.n_tested, 1)) +
                         ((one_sided && !may_miss) || side_missing ? options_.one_sided_log_odds : 0);
   const bool too_little_of_it =
       !may_miss && !IsNearlyAll(best.association) && best.association.best_log_odds < options_.few_log_odds;
   const bool tracked = options_.IsTracked(search);
   const double least_share = tracked ? options_.min_share_tracked : options_.min_share;
   const int per_pair = may_miss ? options_.min_matched_sharp : options_.min_matched;
-  const int least = tracked ? options_.min_matched_sharp : per_pair * static_cast<int>(n_views) / 2;
+  const int least = tracked ? options_.min_matched_sharp : per_pair * static_cast<int>(sought.views.size()) / 2;
   if (fix.n_matched < least || fix.log_odds < wanted || (side_missing && !may_miss) || too_little_of_it ||
       fix.log_odds < least_share * best.association.best_log_odds) {
     fix.verdict = Verdict::kTooFewEdges;
@@ -281,7 +297,7 @@ void LandmarkFinder::Judge(const LandmarkPrediction& prediction, const Eigen::Ma
     fix.verdict = Verdict::kAmbiguous;
   } else if (fix.residual_px > options_.max_residual_px || fix.misfit > options_.max_misfit) {
     fix.verdict = Verdict::kResidualTooLarge;
-  } else if (SquaredDistance(fix.base_from_landmark, prediction.base_from_landmark, search + fix.covariance) >
+  } else if (SquaredDistance(fix.base_from_landmark, sought.prediction.base_from_landmark, search + fix.covariance) >
              options_.gate * options_.gate) {
     fix.verdict = Verdict::kElsewhere;
   } else {

@@ -116,6 +116,14 @@ class LandmarkFinder {
   }
 
  private:
+  /// What is looked for, where and in which images.
+  struct Sought {
+    const LandmarkModel& model;
+    const LandmarkPrediction& prediction;
+    const Eigen::Matrix3d& search;  ///< covariance of the prediction, as far as is searched
+    std::span<const CameraView> views;
+    int n_tested;  ///< poses proposed
+  };
   LandmarkFix FindKnown(const LandmarkModel& model, const LandmarkPrediction& prediction,
                         std::span<const CameraView> views, const ModelErrors& known) const;
   std::vector<RefinedPose> BestStarts(const LandmarkModel& model, std::span<const PoseProposal> proposals,
@@ -125,8 +133,9 @@ class LandmarkFinder {
                       const RefinedPose& pose) const;
   double RivalLogOdds(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search,
                       const std::vector<RefinedPose>& poses, const RefinedPose& best) const;
-  void Judge(const LandmarkPrediction& prediction, const Eigen::Matrix3d& search, int n_tested,
-             std::size_t n_views, const RefinedPose& best, LandmarkFix& fix) const;
+  LandmarkFix AnswerWith(const Sought& sought, const PoseRefinement& refinement,
+                         const std::vector<RefinedPose>& poses, RefinedPose chosen) const;
+  void Judge(const Sought& sought, const RefinedPose& best, LandmarkFix& fix) const;
 
   LandmarkFixOptions options_;
 };
