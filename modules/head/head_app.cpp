@@ -93,6 +93,11 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
         fmt::format("{}: lasers: expected the planes of the line lasers for laser.rate_hz above 0, got "
                     "none; calibrate it with `priamos calibrate --laser`",
                     context.ResolvePath(config.calibration)));
+  if (config.laser.rate_hz > 0 && LinesSeen(head_, config.WatchSetting()) == 0)
+    throw ConfigError(fmt::format(
+        "laser.tilt_deg: expected a tilt at which the third camera sees a line of the lasers in {}, "
+        "got {:.1f} degrees",
+        context.ResolvePath(config.calibration), config.laser.tilt_deg));
 }
 
 /// Of a log: whether the head that was recorded used this picture, as far as it is still there. What it did
@@ -330,6 +335,12 @@ void HeadApp::ReportFloor(const FrameNotice& frame, const HeadSetting& setting) 
   if (!floor) return;
   obstacle_.Publish(ToMessage(floor->lines, frame.exposure));
   if (floor->new_obstacle) context_.Log(bus::Level::kInfo, Describe(*floor->new_obstacle));
+  if (floor->lines_lost)
+    context_.Log(
+        bus::Level::kWarning,
+        fmt::format("{} pictures in a row showed no line of the lasers where the calibration has it: "
+                    "are they on, and is it theirs (priamos calibrate --laser)?",
+                    FloorEvaluator::kLostAfter));
 }
 
 /// The robot sees without it: one that cannot be opened is only reported.

@@ -231,6 +231,16 @@ TEST(HeadApp, WatchingTheLaserNeedsItsPlane) {
       AllOf(HasSubstr("kastor.yaml: lasers: expected the planes"), HasSubstr("`priamos calibrate --laser`")));
 }
 
+TEST(HeadApp, WatchingTheLaserNeedsATiltThatShowsItsLine) {
+  HeadConfig config;
+  config.laser.rate_hz = 5;
+  config.laser.tilt_deg = -20;
+  HeadModel table = Bench::NearlyDrawn();
+  table.lasers = support::NominalLaserFloor().lasers;
+  EXPECT_THAT(support::ThrownReason([&] { Bench(config, table); }),
+              AllOf(HasSubstr("laser.tilt_deg: expected a tilt"), HasSubstr("got -20.0 degrees")));
+}
+
 HeadConfig Keeping(const std::string& folder) {
   HeadConfig config;
   config.keep_pictures = folder;

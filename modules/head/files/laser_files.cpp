@@ -88,6 +88,11 @@ CalibratedLaser CalibrateOne(const std::vector<PictureViews>& pictures, std::siz
   const auto result = CalibrateLaserPlane(views);
   if (!result) throw ConfigError(fmt::format("{}: line {}: {}", path, number + 1, result.reason()));
   laser.result = *result;
+  if (const double x = laser.result.plane.FloorAhead_m(); !(x >= kNearestLight_m && x <= kFarthestLight_m))
+    throw ConfigError(fmt::format(
+        "{}: line {}: its light would meet the floor {:.2f} m ahead of the base centre, expected {} to {} m; "
+        "are `board_m`, `normal` and `line` of the views right?",
+        path, number + 1, x, kNearestLight_m, kFarthestLight_m));
   return laser;
 }
 
@@ -103,7 +108,7 @@ ordered_json AsJson(const CalibratedLaser& calibrated, const HeadModel& head) {
           {"outliers", result.outliers},
           {"rms_px", result.rms_px},
           {"views", views},
-          {"floor_m", -laser.offset_m / laser.normal.x()},
+          {"floor_m", laser.FloorAhead_m()},
           {"base", {{"normal", VectorAsJson(laser.normal)}, {"offset_m", laser.offset_m}}},
           {"third_camera_ahead", {{"normal", VectorAsJson(ahead.normal())}, {"offset_m", ahead.offset()}}},
           {"pivot_m", VectorAsJson(laser.pivot_m)},

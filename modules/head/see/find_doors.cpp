@@ -12,7 +12,8 @@
 namespace priamos::head {
 namespace {
 
-constexpr double kFarthestDoor_m = 12;  // nobody drives by these: far ones may be uncertain
+constexpr double kFarthestDoor_m = 12;       // nobody drives by these: far ones may be uncertain
+constexpr double kWidthOfOneImage_m = 0.05;  // so much less exactly one image alone tells a door's width
 
 DoorDetectionOptions PairOptions(double max_width_m) {
   DoorDetectionOptions options;
@@ -53,7 +54,7 @@ void FindInImage(const SeeOptions& options, const std::vector<CameraView>& own, 
   std::optional<double> height;
   if (!options.stand.empty()) height = seen.stand.stand.height_m;
   ImageDoorOptions wanted;
-  wanted.max_width_m = std::max(wanted.max_width_m, options.max_door_width_m);
+  wanted.max_width_m = options.max_door_width_m + kWidthOfOneImage_m;
   DoorsInImage found = DetectDoorsInImage(own[0], seen.stand.stand, seen.stand.covariance, height, wanted);
   seen.in_image = std::move(found.doors);
   if (height) return;

@@ -29,9 +29,13 @@ std::array<Eigen::Vector2d, 4> Outline(const CameraModel& camera, const Detected
 }  // namespace
 
 CameraStand StandFrom(const std::vector<double>& stand) {
-  const auto finite = [](double v) { return std::isfinite(v); };
-  if (stand.empty() || stand.size() > 3 || !std::all_of(stand.begin(), stand.end(), finite) || stand[0] <= 0)
-    throw std::runtime_error("expected where the cameras stand: height [m], tilt and roll [deg]");
+  const auto within = [](double v, double least, double most) { return v >= least && v <= most; };
+  if (stand.empty() || stand.size() > 3 || !within(stand[0], 0.1, 10) ||
+      !std::all_of(stand.begin() + 1, stand.end(), [&](double angle) { return within(angle, -90, 90); }))
+    throw std::runtime_error(
+        fmt::format("--stand: expected the height of the left camera above the floor, 0.1 to 10 m, and its "
+                    "tilt and roll, -90 to 90 degrees, got {}",
+                    fmt::join(stand, " ")));
   return {stand[0], stand.size() > 1 ? Radians(stand[1]) : 0, stand.size() > 2 ? Radians(stand[2]) : 0};
 }
 

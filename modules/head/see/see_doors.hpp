@@ -12,8 +12,8 @@
 namespace priamos::head {
 
 /// How a camera stands: height [m], tilt [deg, down is positive] and roll [deg, right side down is positive];
-/// tilt and roll may be left out. Throws std::runtime_error unless these are one to three finite numbers, the
-/// height positive.
+/// tilt and roll may be left out. Throws std::runtime_error unless these are one to three numbers: 0.1 to 10
+/// m, and up to 90 degrees to either side.
 CameraStand StandFrom(const std::vector<double>& stand);
 
 /// The images side by side with their edges (thin) and the doors: uprights and lintel, numbered from 1.

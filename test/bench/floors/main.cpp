@@ -19,7 +19,8 @@ using namespace priamos;
 
 struct Options {
   std::uint64_t first = 1, last = 1;
-  std::string floor = "storey", into = "floors", deployment = PRIAMOS_SOURCE_DIR "/config/sim";
+  std::string floor = "storey", into = std::filesystem::temp_directory_path() / "bench_floors",
+              deployment = PRIAMOS_SOURCE_DIR "/config/sim";
   bool legs = false;
   std::vector<std::string> settings;
   planner::ExploreMissionConfig config;
@@ -80,7 +81,7 @@ int main(int argc, char** argv) {
   cli.add_option("--last", options.last, "seed");
   cli.add_option("--floor", options.floor, "storey (made up from the seed), or a scenario of the deployment");
   cli.add_option("--deployment", options.deployment, "folder of configurations");
-  cli.add_option("--into", options.into, "folder of the floors that are made up");
+  cli.add_option("--into", options.into, "folder of the floors that are made up")->capture_default_str();
   cli.add_option("--set", options.settings,
                  "KEY=VALUE of the planner's configuration, such as explore.rounds=2");
   cli.add_flag("--legs", options.legs, "print each");

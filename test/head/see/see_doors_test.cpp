@@ -83,11 +83,19 @@ TEST(StandFrom, ARolledCameraHasItsRightSideDown) {
 
 TEST(StandFrom, WhatIsNoStandIsRefused) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const std::vector<double>& stand :
-       {std::vector<double>{}, {0.0}, {-1.0}, {nan}, {1.2, nan}, {1.2, 0, INFINITY}, {1.2, 0, 0, 0}})
-    EXPECT_EQ(support::ThrownReason([&] { StandFrom(stand); }),
-              "expected where the cameras stand: height [m], tilt and roll [deg]")
+  for (const std::vector<double>& stand : {std::vector<double>{},
+                                           {0.0},
+                                           {-1.0},
+                                           {1000.0},
+                                           {nan},
+                                           {1.2, nan},
+                                           {1.2, 0, INFINITY},
+                                           {1.2, 0, 0, 0}})
+    EXPECT_THAT(
+        support::ThrownReason([&] { StandFrom(stand); }),
+        testing::StartsWith("--stand: expected the height of the left camera above the floor, 0.1 to 10 m"))
         << stand.size();
+  EXPECT_THAT(support::ThrownReason([] { StandFrom({1000, -5}); }), testing::EndsWith("got 1000 -5"));
 }
 
 TEST(DoorsToJson, TellsPlaceSizeAndHowSureItIs) {

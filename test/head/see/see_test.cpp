@@ -332,6 +332,19 @@ TEST_F(SeeDoorTest, OneImageTellsDirectionAndShapeOfADoor) {
   EXPECT_EQ(dut["doors"][0]["corners_px"].size(), 2u);
 }
 
+TEST_F(SeeDoorTest, NoDoorIsWiderThanWasAsked) {
+  SeeOptions options = Options();
+  options.doors = true;
+  options.max_door_width_m = 0.7;
+  options.force = true;
+  for (const std::size_t images : {2, 1}) {
+    options.images.resize(images);
+    options.cameras.resize(images);
+    See(options);
+    EXPECT_TRUE(nlohmann::json::parse(std::ifstream(folder_ / "all.json"))["doors"].empty()) << images;
+  }
+}
+
 TEST_F(SeeDoorTest, APairTellsHowItStands) {
   SeeOptions options = Options();
   options.stand.clear();
@@ -357,7 +370,7 @@ TEST_F(SeeTest, WhereNothingIsUprightDoorsAreNotLookedFor) {
 TEST_F(SeeDoorTest, DoorsNeedCamerasAboveTheFloor) {
   SeeOptions options = Options();
   options.stand = {-1.0};
-  EXPECT_THAT(ErrorOf(options), HasSubstr("height [m]"));
+  EXPECT_THAT(ErrorOf(options), HasSubstr("0.1 to 10 m"));
   options.stand = {1.2};
   options.cameras.clear();
   EXPECT_THAT(ErrorOf(options), HasSubstr("one or two images"));

@@ -4,7 +4,6 @@
 #include <CLI/App.hpp>
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -75,10 +74,10 @@ std::string Line(const LockstepResult& result) {
         "seed {:<6} {}  contacts {}  gap {:.3f} m  {}  {:.0f} m driven  {:.0f} s  {:4.1f}x  {}", s.seed,
         s.passed ? "passed" : "FAILED", s.contacts, s.min_gap_m, SeenText(*s.explore), s.explore->driven_m,
         s.duration_s, s.realtime_factor, s.passed ? "" : s.reason);
-  return fmt::format("seed {:<6} {}  contacts {}  gap {:.3f} m  lateral {:+.3f} m  {:5.1f} s  {:4.1f}x  {}",
-                     s.seed, s.passed ? "passed" : "FAILED", s.contacts, s.min_gap_m,
-                     s.lateral_at_door_m.value_or(NAN), s.duration_s, s.realtime_factor,
-                     s.passed ? "" : s.reason);
+  return fmt::format("seed {:<6} {}  contacts {}  gap {:.3f} m  {}{:5.1f} s  {:4.1f}x  {}", s.seed,
+                     s.passed ? "passed" : "FAILED", s.contacts, s.min_gap_m,
+                     s.lateral_at_door_m ? fmt::format("lateral {:+.3f} m  ", *s.lateral_at_door_m) : "",
+                     s.duration_s, s.realtime_factor, s.passed ? "" : s.reason);
 }
 
 void WriteJson(const std::string& file, const std::vector<Summary>& all) {

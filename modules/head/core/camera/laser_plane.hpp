@@ -17,9 +17,15 @@ struct LaserPlane {
   double sigma_turn_rad = 0, sigma_shift_m = 0;
 
   Eigen::Hyperplane<double, 3> Plane() const { return {normal, offset_m}; }
+  /// How far straight ahead of the base centre its light meets a level floor [m]; infinite or not a number
+  /// where it meets none.
+  double FloorAhead_m() const { return -offset_m / normal.x(); }
   /// Light plane in the frame of a camera (x right, y down, z forward) at this pose.
   Eigen::Hyperplane<double, 3> InCamera(const Eigen::Isometry3d& base_from_camera) const;
 };
+
+/// Limits of what is a point of the light before the robot [m].
+inline constexpr double kNearestLight_m = 0.2, kFarthestLight_m = 8;
 
 /// The point of a plane that a camera shows in a pixel [distorted px]; nullopt for a plane seen edge-on or
 /// behind the camera.

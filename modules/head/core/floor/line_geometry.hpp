@@ -59,7 +59,4 @@ struct RowRange {
 RowRange LineRows(const CameraModel& camera, const LaserPlane& laser, const ImageSize& picture,
                   const ObstacleOptions& options);
 
-/// Limits of what is a point of the light before the robot [m].
-inline constexpr double kNearestLight_m = 0.2, kFarthestLight_m = 8;
-
 }  // namespace priamos::head

@@ -289,7 +289,8 @@ void LandmarkFinder::Judge(const Sought& sought, const RefinedPose& best, Landma
   const bool tracked = options_.IsTracked(search);
   const double least_share = tracked ? options_.min_share_tracked : options_.min_share;
   const int per_pair = may_miss ? options_.min_matched_sharp : options_.min_matched;
-  const int least = tracked ? options_.min_matched_sharp : per_pair * static_cast<int>(sought.views.size()) / 2;
+  const int least =
+      tracked ? options_.min_matched_sharp : per_pair * static_cast<int>(sought.views.size()) / 2;
   if (fix.n_matched < least || fix.log_odds < wanted || (side_missing && !may_miss) || too_little_of_it ||
       fix.log_odds < least_share * best.association.best_log_odds) {
     fix.verdict = Verdict::kTooFewEdges;
@@ -297,8 +298,8 @@ void LandmarkFinder::Judge(const Sought& sought, const RefinedPose& best, Landma
     fix.verdict = Verdict::kAmbiguous;
   } else if (fix.residual_px > options_.max_residual_px || fix.misfit > options_.max_misfit) {
     fix.verdict = Verdict::kResidualTooLarge;
-  } else if (SquaredDistance(fix.base_from_landmark, sought.prediction.base_from_landmark, search + fix.covariance) >
-             options_.gate * options_.gate) {
+  } else if (SquaredDistance(fix.base_from_landmark, sought.prediction.base_from_landmark,
+                             search + fix.covariance) > options_.gate * options_.gate) {
     fix.verdict = Verdict::kElsewhere;
   } else {
     fix.verdict = Verdict::kFound;

@@ -16,6 +16,8 @@ std::optional<FloorResult> FloorEvaluator::Evaluate(const std::optional<GreyImag
   if (result.lines.verdict == ObstacleLines::kObstacle && last_ != ObstacleLines::kObstacle)
     result.new_obstacle = WorstPiece(result.lines);
   last_ = result.lines.verdict;
+  blind_ = last_ == ObstacleLines::kBlind ? blind_ + 1 : 0;
+  result.lines_lost = blind_ == kLostAfter;
   return result;
 }
 

@@ -13,12 +13,16 @@ namespace priamos::head {
 struct FloorResult {
   ObstacleLines lines;                        ///< floor and obstacles, base frame
   std::optional<ObstaclePiece> new_obstacle;  ///< the worst piece, if the picture before showed no obstacle
+  bool lines_lost = false;  ///< this is the last of kLostAfter pictures in a row in which no floor was judged
 };
 
 /// Evaluates pictures of the laser's line, one after the other: remembers whether the last one showed an
-/// obstacle, so that each is reported once.
+/// obstacle, and how many showed no line, so that each is reported once.
 class FloorEvaluator {
  public:
+  /// Pictures without a line after which they count as lost: more than a dark carpet that is driven over.
+  static constexpr int kLostAfter = 40;
+
   FloorEvaluator(const HeadModel& head, const ObstacleOptions& options) : head_(head), finder_(options) {}
 
   /// The floor in a picture of the third camera, taken with the motors at `setting`. nullopt if the picture
@@ -29,6 +33,7 @@ class FloorEvaluator {
   HeadModel head_;
   ObstacleFinder finder_;
   ObstacleLines::Verdict last_ = ObstacleLines::kClear;
+  int blind_ = 0;  ///< pictures since the floor was judged last
 };
 
 /// The piece that is farthest above or below the floor; nullopt if there is none.

@@ -27,6 +27,9 @@ constexpr double kBothNear_m = 0.30;
 /// An opening that was passed so near to the door is the door.
 constexpr double kAtDoor_m = 0.5;
 
+/// Going back by less than this shows no more of a door.
+constexpr double kWorthIt_m = 0.4;
+
 /// A leaf is refused when it would be too narrow even if it stood open so many sigmas wider.
 constexpr double kSure = 2;
 /// Up to this far beyond the hold point the robot can still end before the door; then it goes on.
@@ -59,6 +62,9 @@ void DoorMissionConfig::Describe(Archive& a) {
   a.Number("look_to_m", look_to_m, {"m", 1, 10, "distance to the door at which both looks should be done"});
   if (look_to_m > look_from_m) a.Refuse("look_to_m", "at most look_from_m");
   a.Number("looks_take_s", looks_take_s, {"s", 0.5, 60, "both looks, starting and radio included"});
+  a.Number(
+      "stand_back_m", stand_back_m,
+      {"m", 0, 10, "distance to the door to which it goes back when looks from nearer failed; 0: never"});
   a.Number("one_side_m", one_side_m,
            {"m", 0, 10, "distance to the door up to which looks while passing stay on one side"});
   a.Number("confirm_to_m", confirm_to_m,
@@ -88,6 +94,7 @@ std::optional<Refusal> DoorMission::Start(const MissionOrder& order) {
   at_hold_ = false;
   arrived_.reset();
   blocked_ = 0;
+  stood_back_ = false;
   looks_.Reset();
   leaf_.Reset();
   if (!door_) return Refusal{fmt::format("the map has no door {}", order.landmark_id)};
@@ -217,8 +224,23 @@ void DoorMission::LookAtDoor(MissionControl& control) {
   const bool looking = phase == Phase::kLookingLeft || phase == Phase::kLookingRight;
   if (!looking || !looks_.Ready(control.now())) return;
   if (!LooksUsedUp()) return LookFromHere(control);
-  if (!judge_)
+  if (!judge_ && !StandBack(control))
     control.Fail(fmt::format("{} looks failed, the last one: {}", looks_.failures(), looks_.trouble()));
+}
+
+bool DoorMission::StandBack(MissionControl& control) {
+  if (stood_back_ || DistanceToDoor(control) > config_.stand_back_m - kWorthIt_m) return false;
+  stood_back_ = true;
+  const Pose2& from = control.heard().pose->map_from_base;
+  const auto path = planner_.PlanStandBack(*door_, from, config_.stand_back_m);
+  if (!path) return false;
+  stopped_by_ = {Stop::Cause::kUncertain,
+                 fmt::format("{} looks failed, the last one: {}", looks_.failures(), looks_.trouble())};
+  give_up_ = at_hold_ = false;
+  control.OrderPath(*path, config_.slowest_m_s);
+  control.Enter(Phase::kRetreating, fmt::format("{}: back to {:.1f} m before the door, to see more of it",
+                                                stopped_by_.reason, config_.stand_back_m));
+  return true;
 }
 
 void DoorMission::EvaluatePose(MissionControl& control) {

@@ -20,6 +20,7 @@ struct DoorMissionConfig {
   double look_from_m = 3.4;   ///< distance to the door from which on the head may look
   double look_to_m = 2.0;     ///< distance at which both sides should have been seen ...
   double looks_take_s = 3.5;  ///< ... and how long that takes, starting and radio included
+  double stand_back_m = 2.6;  ///< to where it goes back, once, when looks from nearer all failed; 0: never
   double one_side_m = 1.8;    ///< nearer, a picture holds one side only: looks stay on one
   double confirm_to_m = 0.7;  ///< looks go on to here while passing; nearer, the head follows the door itself
   double command_delay_s = 0.2;  ///< from a decision here to the wheels there
@@ -35,12 +36,13 @@ struct DoorMissionConfig {
 /// The mission "pass the door": approach slowly, look at the left and at the right side of the door while
 /// driving, and only when both sides have corrected the pose and what is left of its uncertainty, with the
 /// drift of the distance still to go, fits the gap, plan through the door and go. Until then look again, in
-/// turn left and right, while the robot comes nearer; at the hold point it stops by itself. On the first part
-/// of the passage the looks go on: each one sharpens the pose with which the robot follows its path. A robot
-/// that is stopped in the door goes back to the hold point, and tries again unless it touched something: the
-/// doorway is left free. When the looks agree that the leaf leaves too narrow a way, the mission ends before
-/// the door. A door that has a landmark on its far side (`behind_id`) is passed from there in the same way,
-/// except that nothing is known of its leaf.
+/// turn left and right, while the robot comes nearer; at the hold point it stops by itself. When all looks
+/// from there fail, as a picture from near holds too little of a door, it goes back once and looks from
+/// there. On the first part of the passage the looks go on: each one sharpens the pose with which the robot
+/// follows its path. A robot that is stopped in the door goes back to the hold point, and tries again unless
+/// it touched something: the doorway is left free. When the looks agree that the leaf leaves too narrow a
+/// way, the mission ends before the door. A door that has a landmark on its far side (`behind_id`) is passed
+/// from there in the same way, except that nothing is known of its leaf.
 class DoorMission : public Mission {
  public:
   DoorMission(const DoorMissionConfig& config, const DoorPlannerConfig& planner, const Footprint& footprint,
@@ -74,6 +76,8 @@ class DoorMission : public Mission {
   void Pass(MissionControl& control);
   void Arrive(MissionControl& control);
   void Retreat(MissionControl& control);
+  /// Goes to where a picture holds the whole door; false: it stands there, or did so, or there is no way.
+  bool StandBack(MissionControl& control);
   void TryAgain(MissionControl& control);
   /// Why the leaf leaves no way for the base; nullopt: it does, or nobody knows.
   std::optional<std::string> LeafInTheWay() const;
@@ -107,6 +111,7 @@ class DoorMission : public Mission {
   int blocked_ = 0;              ///< how often it was blocked in the door
   Stop stopped_by_;              ///< what stopped it in the door
   bool give_up_ = false;         ///< it does not try again
+  bool stood_back_ = false;      ///< it has gone back to look
   bool at_hold_ = false;         ///< it waits at the hold point: a look from there is not like those before
   bool judge_ = false;           ///< enough looks have succeeded: the next pose is to be judged
 };

@@ -124,6 +124,11 @@ Outcome<PlannedPath> DoorPlanner::PlanRetreat(const DoorPlan& door, const Pose2&
   return PlannedPath{.points = {door.map_from_door() * Pose2{hold_x, 0, 0}}};
 }
 
+Outcome<PlannedPath> DoorPlanner::PlanStandBack(const DoorPlan& door, const Pose2& map_from_start,
+                                                double distance_m) const {
+  return CheckPath(map_from_start, {door.map_from_door() * Pose2{-distance_m, 0, 0}}, 0);
+}
+
 Outcome<PlannedPath> DoorPlanner::PlanApproach(const DoorPlan& door, const Pose2& map_from_start) const {
   if (const auto refusal = CheckStart(door, map_from_start)) return *refusal;
   const Pose2 door_from_start = door.map_from_door().Inverse() * map_from_start;

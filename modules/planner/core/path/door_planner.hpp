@@ -51,6 +51,10 @@ class DoorPlanner {
   /// hold point: over what the robot has just left free.
   Outcome<PlannedPath> PlanRetreat(const DoorPlan& door, const Pose2& map_from_start) const;
 
+  /// Path from `map_from_start` straight back to the door's axis, so far before the door [m].
+  Outcome<PlannedPath> PlanStandBack(const DoorPlan& door, const Pose2& map_from_start,
+                                     double distance_m) const;
+
   /// Coordinate x of the hold point in the door's frame [m], negative.
   double HoldX(const DoorPlan& door) const;
   /// Coordinate x in the door's frame from which on the whole footprint is behind the wall [m].

@@ -61,6 +61,24 @@ TEST_F(FloorEvaluatorTest, ALostPictureSaysNothingAndForgetsNothing) {
   EXPECT_FALSE(Evaluate(0.03)->new_obstacle);
 }
 
+/// A lamp that went out, or the calibration of another laser: said once, and again after it came back.
+TEST_F(FloorEvaluatorTest, LinesThatAreNotSeenForLongAreLost) {
+  const ImageSize size;
+  const GreyImage dark{size.width, size.height,
+                       std::vector<std::uint8_t>(std::size_t(size.width) * std::size_t(size.height))};
+  int lost = 0;
+  const auto look_at_dark = [&](int times) {
+    for (int i = 0; i < times; ++i) lost += dut_.Evaluate(dark, setting_)->lines_lost ? 1 : 0;
+  };
+  look_at_dark(FloorEvaluator::kLostAfter - 1);
+  EXPECT_EQ(lost, 0);
+  look_at_dark(FloorEvaluator::kLostAfter);
+  EXPECT_EQ(lost, 1);
+  EXPECT_FALSE(Evaluate(0)->lines_lost);
+  look_at_dark(FloorEvaluator::kLostAfter);
+  EXPECT_EQ(lost, 2);
+}
+
 TEST_F(FloorEvaluatorTest, WithoutACalibratedLaserOrCameraNothingIsSaid) {
   HeadModel without_camera = head_;
   head_.lasers.clear();

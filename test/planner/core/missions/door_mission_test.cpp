@@ -286,8 +286,42 @@ TEST(DoorMission, SaysWhyItLooksAgain) {
   EXPECT_EQ(s.dut.state().phase, Phase::kLookingLeft);
 }
 
+/// From near a picture holds too little of the door to find it where its place is hardly known.
+TEST(DoorMission, LooksThatFailFromNearAreRepeatedFromFartherBack) {
+  Story s;
+  s.robot.answer = [&s](const LookOrder& look, int) {
+    return LookResult{look.request_id, s.robot.truth().x < 6 - 2.4 && s.robot.paths.size() > 1, "", false};
+  };
+  s.Start();
+  s.robot.RunUntil(Phase::kRetreating);
+  EXPECT_GT(s.robot.truth().x, 6 - 1.9);
+  EXPECT_THAT(s.dut.state().text, HasSubstr("9 looks failed"));
+  EXPECT_THAT(s.dut.state().text, HasSubstr("back to 2.6 m before the door, to see more of it"));
+  s.robot.RunUntil(Phase::kLookingLeft);
+  EXPECT_NEAR(s.robot.truth().x, 6 - 2.6, 0.05);
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+}
+
 TEST(DoorMission, GivesUpWithTheReasonAndBrakes) {
   Story s;
+  s.robot.answer = [](const LookOrder& look, int) {
+    return LookResult{look.request_id, false, "ambiguous", false};
+  };
+  s.Start();
+  s.robot.RunFor(90);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  EXPECT_THAT(s.dut.state().text, HasSubstr("looks failed, the last one: left side of the door not found"));
+  for (int i = 0; i < 10; ++i) s.robot.Step();
+  EXPECT_TRUE(s.robot.paths.back().points.empty());
+  EXPECT_NEAR(s.robot.truth().x, 6 - 2.6, 0.05) << "it went back once, and stays there";
+}
+
+/// Who cannot go back, or shall not, gives up where it stands.
+TEST(DoorMission, WithoutRoomBehindItGivesUpAtTheHoldPoint) {
+  DoorMissionConfig config;
+  config.stand_back_m = 0;
+  Story s({2.0, 2.4, 0}, ShippedPlan(), config);
   s.robot.answer = [](const LookOrder& look, int) {
     return LookResult{look.request_id, false, "ambiguous", false};
   };
@@ -295,9 +329,7 @@ TEST(DoorMission, GivesUpWithTheReasonAndBrakes) {
   s.robot.RunFor(60);
   EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
   EXPECT_EQ(s.dut.state().text, "9 looks failed, the last one: left side of the door not found: ambiguous");
-  for (int i = 0; i < 10; ++i) s.robot.Step();
-  EXPECT_TRUE(s.robot.paths.back().points.empty());
-  EXPECT_LT(s.robot.truth().x, 6 - 1.1);
+  EXPECT_GT(s.robot.truth().x, 6 - 1.9);
 }
 
 TEST(DoorMission, AnswerToAnEarlierRequestIsNotTaken) {
@@ -313,9 +345,9 @@ TEST(DoorMission, HeadThatNeverAnswersIsAskedAgainThenGivenUp) {
   Story s;
   s.robot.look_time = std::chrono::seconds(1000);
   s.Start();
-  s.robot.RunFor(60);
+  s.robot.RunFor(110);
   EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
-  EXPECT_EQ(s.dut.state().text, "9 looks failed, the last one: right side of the door not found: no answer");
+  EXPECT_THAT(s.dut.state().text, HasSubstr("side of the door not found: no answer"));
 }
 
 TEST(DoorMission, UncertainPoseIsLookedAtAgainAndThenRefused) {

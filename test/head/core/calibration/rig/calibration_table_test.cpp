@@ -69,7 +69,7 @@ TEST(CalibrationTable, KeepsTheLasersInTheirOrder) {
   HeadModel written = SomeHead();
   EXPECT_TRUE(FromYaml(ToYaml(written))->lasers.empty());
   written.lasers = {{{0.6, 0, 0.8}, -0.123456789, {1, 2, 3}, 0.0004, 0.0002},
-                    {{0, 0.6, 0.8}, -0.5, {3, 2, 1}, 0.0003, 0.0001}};
+                    {{0.8, 0, 0.6}, -2.5, {3, 2, 1}, 0.0003, 0.0001}};
   const auto dut = FromYaml(ToYaml(written));
   ASSERT_TRUE(dut) << dut.reason();
   ASSERT_EQ(dut->lasers.size(), 2U);
@@ -87,6 +87,20 @@ TEST(CalibrationTable, KeepsTheLasersInTheirOrder) {
   EXPECT_THAT(FromYaml(ToYaml(written)).reason(), HasSubstr("'lasers' is not a list of 1 to 4"));
 }
 
+/// Light that meets the floor behind the base, beyond the camera's reach or nowhere is that of no laser here.
+TEST(CalibrationTable, LasersWhoseLightMeetsNoFloorAheadAreRefused) {
+  HeadModel written = SomeHead();
+  const auto reason = [&](const Eigen::Vector3d& normal, double offset_m) {
+    written.lasers = {{normal, offset_m, {1, 2, 3}, 0.0004, 0.0002}};
+    return FromYaml(ToYaml(written)).reason();
+  };
+  EXPECT_EQ(reason({0.6, 0, 0.8}, -1.2), "");
+  EXPECT_THAT(reason({0.6, 0, 0.8}, 1.2), HasSubstr("meets the floor -2.00 m ahead"));
+  EXPECT_THAT(reason({0.6, 0, 0.8}, -6), HasSubstr("expected 0.2 to 8 m; calibrate it anew"));
+  EXPECT_THAT(reason({0, 0.6, 0.8}, -1.2), HasSubstr("laser: its light meets the floor inf m ahead"));
+  EXPECT_THAT(reason({0, 0, 1}, 0), HasSubstr("laser: its light meets the floor"));
+}
+
 /// As tables were when there was only one.
 TEST(CalibrationTable, ATableWithASingleLaserIsRead) {
   const std::string yaml =
@@ -101,7 +115,7 @@ TEST(CalibrationTable, ATableWithASingleLaserIsRead) {
 
 TEST(CalibrationTable, EveryTruncationIsRefused) {
   HeadModel model = SomeHead();
-  model.lasers = {LaserPlane{}, LaserPlane{}};
+  model.lasers = {LaserPlane{{0.6, 0, 0.8}, -1.2}, LaserPlane{{0.8, 0, 0.6}, -2.4}};
   const std::string yaml = ToYaml(model);
   for (std::size_t n = 0; n + 2 < yaml.size(); n += 37)
     EXPECT_FALSE(FromYaml(yaml.substr(0, n))) << "cut after " << n << " bytes";
@@ -122,7 +136,7 @@ TEST(CalibrationTable, DamageIsNamed) {
 
 TEST(CalibrationTable, RandomDamageNeverThrows) {
   HeadModel model = SomeHead();
-  model.lasers = {LaserPlane{}, LaserPlane{}};
+  model.lasers = {LaserPlane{{0.6, 0, 0.8}, -1.2}, LaserPlane{{0.8, 0, 0.6}, -2.4}};
   const std::string yaml = ToYaml(model);
   Rng rng(5);
   for (int i = 0; i < 300; ++i) {
