@@ -22,8 +22,10 @@ FreeModelFix BodyTracker::Look(std::span<const CameraView> views) {
     FreeModelOptions options = options_.fix;
     options.prior_share = belief.share;
     options.prior_rad = belief.rad;
-    if (belief.is_followed)
+    if (belief.is_followed) {
       options.min_agreement = options.min_agreement_when_coarse = options_.min_agreement_when_followed;
+      options.min_evidence = options_.min_evidence_when_followed;
+    }
     FreeModelFix fix = LocateFreeModel(body_, belief.base_from_model, views, options);
     if (fix.verdict == Verdict::kFound) {
       last_ = fix.base_from_model;

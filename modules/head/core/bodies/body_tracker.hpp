@@ -15,9 +15,9 @@ struct BodyTrackerOptions {
   /// How far the body may have moved from one moment to the next against the cameras, one sigma along and
   /// about each axis: a share of the distance, and an angle.
   double motion_share = 0.035, motion_rad = 0.03;
-  /// FreeModelOptions::min_agreement* of a body that was found in the moment before: it is the right one, and
-  /// no other body of its kind takes its place from one moment to the next.
-  double min_agreement_when_followed = 1;
+  /// FreeModelOptions::min_agreement* and min_evidence of a body that was found in the moment before: it is
+  /// the right one, and no other body of its kind takes its place from one moment to the next.
+  double min_agreement_when_followed = 1, min_evidence_when_followed = 3.1;
   double max_growth = 4;  ///< so many times wider at most does the search become while the body is lost
 };
 

@@ -30,8 +30,9 @@ class Judge {
   }
 
   Verdict Of(const BodyState& state, const FreeModelFix& fix) const {
-    if (static_cast<int>(state.association.matches.size()) < options_.min_matched ||
-        fix.log_odds < options_.min_log_odds || !Agrees(state, fix) ||
+    const int n_linked = static_cast<int>(state.association.matches.size());
+    const int n_found = fix.contour ? std::max(n_linked, fix.contour->n_seen) : n_linked;
+    if (n_found < options_.min_matched || fix.log_odds < options_.min_log_odds || !Agrees(state, fix) ||
         !IsWithin(options_.max_sigma_share, options_.max_sigma_rad, state))
       return Verdict::kTooFewEdges;
     if (fix.misfit > options_.max_misfit) return Verdict::kResidualTooLarge;
@@ -43,9 +44,10 @@ class Judge {
 
  private:
   bool Agrees(const BodyState& state, const FreeModelFix& fix) const {
+    const double agreement = fix.agreement.Value(fix.misfit);
+    if (fix.contour) return fix.contour->Value(agreement) >= options_.min_evidence;
     const bool fine = IsWithin(options_.fine_sigma_share, options_.fine_sigma_rad, state);
-    return fix.agreement.Value(fix.misfit) >=
-           (fine ? options_.min_agreement : options_.min_agreement_when_coarse);
+    return agreement >= (fine ? options_.min_agreement : options_.min_agreement_when_coarse);
   }
 
   /// Whether the edges tell the pose so well.
@@ -111,6 +113,8 @@ FreeModelFix LocateFreeModel(const Polyhedron& body, const Eigen::Isometry3d& be
   fix.misfit = best.variance_scale;
   fix.log_odds = best.LogOdds(unit);
   fix.agreement = AgreementOf(best.association, search.blur_px());
+  if (!search.meters().empty())
+    fix.contour = EvidenceOf(best.seen, best.base_from_model, views, search.meters());
   for (const BodyState& other : states)
     if (judge.AreDistinct(best, other))
       fix.rival_log_odds = std::max(fix.rival_log_odds, other.LogOdds(unit));

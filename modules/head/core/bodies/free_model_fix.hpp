@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <span>
 
 #include "head/core/bodies/body_agreement.hpp"
+#include "head/core/bodies/contour_evidence.hpp"
 #include "head/core/bodies/free_model_options.hpp"
 #include "head/core/bodies/polyhedron.hpp"
 #include "head/core/landmark/landmark_fix.hpp"
@@ -20,9 +22,10 @@ struct FreeModelFix {
   double misfit = 0;    ///< variance of the edges over the one that was expected
   double log_odds = 0;  ///< Association::log_odds, less what the model had to be bent
   BodyAgreement agreement{};
-  double rival_log_odds = 0;       ///< of the best different pose
-  LandmarkModel seen;              ///< what is visible of it at that pose
-  std::vector<EdgeMatch> matches;  ///< edges of `seen`
+  std::optional<ContourEvidence> contour{};  ///< nullopt: the images are not at hand
+  double rival_log_odds = 0;                 ///< of the best different pose
+  LandmarkModel seen;                        ///< what is visible of it at that pose
+  std::vector<EdgeMatch> matches;            ///< edges of `seen`
 };
 
 /// Finds a body of flat faces in one or more images of the same moment, near `believed`: many poses of the

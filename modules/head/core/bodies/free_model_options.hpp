@@ -12,8 +12,10 @@ struct FreeModelOptions {
   double prior_share = 0.035, prior_rad = 0.03;
   double max_prior_sigmas = 3.5;  ///< farther from the belief is "elsewhere"
   BodyProposalOptions proposals{};
-  int min_matched = 6;          ///< edges that must be found, all images together
-  double min_log_odds = 6;      ///< of the body there against clutter only
+  int min_matched = 6;      ///< edges that must be found or seen, all images together
+  double min_log_odds = 6;  ///< of the body there against clutter only
+  /// ContourEvidence::Value; where the images are not at hand, the agreement alone decides.
+  double min_evidence = 3.42;
   double min_agreement = 1.15;  ///< BodyAgreement::Value
   /// The same where the edges tell the pose less well than fine_sigma_*, as of a small body: one of another
   /// size fits them nearly as well.

@@ -61,8 +61,11 @@ FreeSearch::FreeSearch(const Polyhedron& body, std::span<const CameraView> views
   }
   if (std::any_of(views.begin(), views.end(), [](const CameraView& view) { return !view.image; })) return;
   guides_.reserve(views.size());
-  for (const CameraView& view : views)
+  meters_.reserve(views.size());
+  for (const CameraView& view : views) {
     guides_.emplace_back(*view.image, view.edges->noise_sigma, view.blur_px);
+    meters_.emplace_back(*view.image, view.edges->noise_sigma, view.blur_px);
+  }
 }
 
 std::vector<BodyState> FreeSearch::Refine(std::span<const Eigen::Isometry3d> poses) {
@@ -93,7 +96,7 @@ bool FreeSearch::Refine(const Pass& pass, BodyState& state) {
 
 void FreeSearch::Guide(BodyState& state) {
   if (!guides_.empty())
-    state.guided = std::make_shared<GuidedViews>(state.seen, state.base_from_model, views_, guides_);
+    state.guided = std::make_shared<GuidedViews>(state.seen, state.base_from_model, views_, guides_, meters_);
 }
 
 std::span<const CameraView> FreeSearch::ViewsOf(const BodyState& state) const {

@@ -42,6 +42,8 @@ class FreeSearch {
   std::vector<BodyState> Refine(std::span<const Eigen::Isometry3d> poses);
 
   double blur_px() const { return blur_px_; }  ///< of the least sharp image
+  /// One for each view, or none if an image is not at hand.
+  std::span<const StepMeter> meters() const { return meters_; }
 
  private:
   struct Pass;
@@ -61,6 +63,7 @@ class FreeSearch {
   const FreeModelOptions& options_;
   std::vector<const CameraModel*> cameras_;
   std::vector<GuidedEdges> guides_;  ///< one for each view, or none if an image is not at hand
+  std::vector<StepMeter> meters_;    ///< the same
   double blur_px_ = 0, model_sigma_px_ = 0, gate_px_ = 0;
 };
 

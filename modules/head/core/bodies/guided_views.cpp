@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
-#include "head/core/camera/projection.hpp"
+#include "head/core/bodies/contour_pieces.hpp"
 
 namespace priamos::head {
 namespace {
 
 constexpr double kShortest_px = 12;  ///< a shorter prediction is not measured
 constexpr double kBeside_px = 2;     ///< lines of one direction so near to each other are of one edge
+constexpr double kMostOfIt = 0.7;    ///< share of an edge that is enough to measure it
+constexpr int kBeyond = 2;           ///< pieces beyond its ends in which an edge may run on
+constexpr double kLeastBlur_px = 1;  ///< sharp edges are not lost
 constexpr double kAligned = 0.98;    ///< cosine of the angle between them
 
 /// True if the middle of `line` lies on `measured`, which has its direction.
@@ -28,14 +32,32 @@ void Append(const EdgeSegment& segment, const EdgeImage& from, EdgeImage& to) {
   to.segments.push_back(copy);
 }
 
+void RemoveLast(EdgeImage& edges) {
+  edges.points.resize(edges.segments.back().first_point);
+  edges.segments.pop_back();
+}
+
+/// `meter`: nullptr, or what measures those of which `guide` loses most.
 EdgeImage MeasureAlong(const LandmarkModel& seen, const Eigen::Isometry3d& base_from_model,
-                       const CameraView& view, GuidedEdges& guide) {
+                       const CameraView& view, GuidedEdges& guide, const StepMeter* meter) {
   EdgeImage measured;
-  for (const LandmarkEdge& edge : seen.edges) {
+  std::optional<ContourPieces> contour;
+  if (meter) contour.emplace(seen, base_from_model, view, *meter);
+  for (std::size_t i = 0; i < seen.edges.size(); ++i) {
+    const LandmarkEdge& edge = seen.edges[i];
     const auto expected =
         ProjectEdge(*view.camera, view.size, base_from_model * edge.from, base_from_model * edge.to);
-    if (expected && expected->length_px() >= kShortest_px)
-      guide.Measure(view.camera->Distort(expected->p), view.camera->Distort(expected->q), measured);
+    if (!expected || expected->length_px() < kShortest_px) continue;
+    const bool is_guided =
+        guide.Measure(view.camera->Distort(expected->p), view.camera->Distort(expected->q), measured);
+    const double guided_px = is_guided ? measured.segments.back().length_px() : 0;
+    if (!contour || guided_px > kMostOfIt * expected->length_px()) continue;
+    EdgeImage line;
+    if (!AppendLine(contour->Measure(i, kBeyond), expected->length_px(), view.blur_px, line) ||
+        line.segments[0].length_px() < guided_px)
+      continue;
+    if (is_guided) RemoveLast(measured);
+    Append(line.segments[0], line, measured);
   }
   return measured;
 }
@@ -55,11 +77,13 @@ EdgeImage Join(const EdgeImage& found, const EdgeImage& measured) {
 }  // namespace
 
 GuidedViews::GuidedViews(const LandmarkModel& seen, const Eigen::Isometry3d& base_from_model,
-                         std::span<const CameraView> views, std::span<GuidedEdges> guides) {
+                         std::span<const CameraView> views, std::span<GuidedEdges> guides,
+                         std::span<const StepMeter> meters) {
   edges_.reserve(views.size());  // views_ refer to them
   views_.reserve(views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
-    edges_.push_back(Join(*views[i].edges, MeasureAlong(seen, base_from_model, views[i], guides[i])));
+    const StepMeter* meter = i < meters.size() && views[i].blur_px > kLeastBlur_px ? &meters[i] : nullptr;
+    edges_.push_back(Join(*views[i].edges, MeasureAlong(seen, base_from_model, views[i], guides[i], meter)));
     views_.push_back(MakeView(*views[i].camera, edges_.back()));
     views_.back().blur_px = views[i].blur_px;
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "head/core/edges/guided_edges.hpp"
+#include "head/core/edges/step_meter.hpp"
 #include "head/core/landmark/landmark.hpp"
 #include "head/core/stereo/view_line.hpp"
 
@@ -15,9 +16,10 @@ namespace priamos::head {
 class GuidedViews {
  public:
   /// Measures the images of `views` with `guides`, one for each, along the edges `seen` of a body at
-  /// `base_from_model`.
+  /// `base_from_model`; with `meters`, one for each or none, what those lose in blurred images.
   GuidedViews(const LandmarkModel& seen, const Eigen::Isometry3d& base_from_model,
-              std::span<const CameraView> views, std::span<GuidedEdges> guides);
+              std::span<const CameraView> views, std::span<GuidedEdges> guides,
+              std::span<const StepMeter> meters = {});
   GuidedViews(const GuidedViews&) = delete;
   GuidedViews& operator=(const GuidedViews&) = delete;
 

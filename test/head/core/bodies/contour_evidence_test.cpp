@@ -1,0 +1,99 @@
+#include "head/core/bodies/contour_evidence.hpp"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "head/core/bodies/contour_pieces.hpp"
+#include "head/core/bodies/polyhedron.hpp"
+#include "test/head/core/bodies/grey_cupboard.hpp"
+
+namespace priamos::head {
+namespace {
+
+constexpr double kBlur_px = 3;
+
+/// The cupboard before one camera, blurred.
+class ContourEvidenceTest : public testing::Test {
+ protected:
+  ContourEvidenceTest() {
+    image_ = test::RenderQuads(cupboard_.quads, truth_, camera_, 1, rng_, 60);
+    cv::GaussianBlur(image_, image_, {0, 0}, kBlur_px);
+    edges_.width = image_.cols;
+    edges_.height = image_.rows;
+    view_ = MakeView(camera_, edges_);
+    view_.blur_px = kBlur_px;
+    meters_.emplace_back(image_, 1, kBlur_px);
+  }
+
+  LandmarkModel SeenAt(const Eigen::Isometry3d& pose) const {
+    return VisibleSkeleton(cupboard_.body, pose.inverse() * OpticalCentre(camera_));
+  }
+  ContourEvidence At(const Eigen::Isometry3d& pose) const {
+    return EvidenceOf(SeenAt(pose), pose, {&view_, 1}, meters_);
+  }
+
+  Rng rng_{3};
+  const CameraModel camera_ = test::HeadCamera(0, 1, 700);
+  const test::GreyCupboard cupboard_;
+  const Eigen::Isometry3d truth_{Eigen::Translation3d(2.6, -0.4, 0.2) *
+                                 Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ())};
+  cv::Mat image_;
+  EdgeImage edges_;  ///< empty: no edge was linked
+  CameraView view_;
+  std::vector<StepMeter> meters_;
+};
+
+TEST_F(ContourEvidenceTest, TheContourIsSeenAtTheTruthThoughNoEdgeWasLinked) {
+  const ContourEvidence dut = At(truth_);
+  EXPECT_GT(dut.seen, 0.85);
+  EXPECT_LT(dut.rms_px, 0.6);
+  EXPECT_GE(dut.n_seen, dut.n_edges - 1);
+  EXPECT_NEAR(dut.seen + dut.blank + dut.other, 1, 1e-9);
+}
+
+TEST_F(ContourEvidenceTest, BesideTheTruthLessIsSeenAndWhatIsThereIsSomethingElse) {
+  const ContourEvidence dut = At(Eigen::Translation3d(0, 0.03, 0.03) * truth_);
+  EXPECT_LT(dut.seen, 0.3);
+  EXPECT_GT(dut.other, 0.5);
+}
+
+TEST_F(ContourEvidenceTest, WhereNothingIsItIsBlank) {
+  image_ = 60;
+  const StepMeter blank(image_, 1, kBlur_px);
+  const ContourEvidence dut = EvidenceOf(SeenAt(truth_), truth_, {&view_, 1}, {&blank, 1});
+  EXPECT_EQ(dut.seen, 0);
+  EXPECT_NEAR(dut.blank, 1, 1e-9);
+  EXPECT_EQ(dut.n_seen, 0);
+}
+
+TEST_F(ContourEvidenceTest, MoreEdgesSeenAreWorthMore) {
+  ContourEvidence few{.seen = 0.7, .n_seen = 6}, many = few;
+  many.n_seen = 12;
+  EXPECT_GT(many.Value(1), few.Value(1));
+  EXPECT_GT(few.Value(1.1), few.Value(1));
+  few.seen = 0.9;
+  EXPECT_GT(few.Value(1), (ContourEvidence{.seen = 0.7, .n_seen = 6}.Value(1)));
+}
+
+TEST_F(ContourEvidenceTest, PiecesMakeALineWithItsBrightSideOnTheRight) {
+  const ContourPieces pieces(SeenAt(truth_), truth_, view_, meters_[0]);
+  int n_lines = 0;
+  for (std::size_t i = 0; i < pieces.edges().size(); ++i) {
+    if (!pieces.edges()[i]) continue;
+    EdgeImage dut;
+    if (!AppendLine(pieces.Measure(i, 2), pieces.edges()[i]->length_px(), kBlur_px, dut)) continue;
+    ++n_lines;
+    const EdgeSegment& line = dut.segments.at(0);
+    EXPECT_EQ(line.n_points, static_cast<int>(dut.points.size()));
+    EXPECT_GT(line.grey_right, line.grey_left);
+    const Eigen::Vector2d at = line.centre + 6 * line.normal(), behind = line.centre - 6 * line.normal();
+    EXPECT_GT(image_.at<unsigned char>(int(at.y()), int(at.x())),
+              image_.at<unsigned char>(int(behind.y()), int(behind.x())));
+  }
+  EXPECT_GE(n_lines, 5);
+}
+
+}  // namespace
+}  // namespace priamos::head
