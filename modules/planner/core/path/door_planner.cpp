@@ -99,7 +99,7 @@ std::optional<Refusal> DoorPlanner::CheckStart(const DoorPlan& door, const Pose2
   if (beyond_m >= 0)
     return Refusal{fmt::format("the robot is {:.2f} m behind door '{}', not before it", beyond_m, door.name)};
   const auto gap = space_.At(map_from_start);
-  if (gap.distance_m <= 0) return Refusal{"the robot would already be in " + gap.obstacle};
+  if (gap.distance_m <= 0) return StandsIn(map_from_start, gap.obstacle);
   return std::nullopt;
 }
 

@@ -204,8 +204,7 @@ std::optional<Refusal> RoutePlanner::CheckEnds(const Pose2& start, const Goal& g
   if (nearest.distance_m < needed_m)
     return Refusal{fmt::format("the goal ({:.2f}, {:.2f}) is {:.2f} m from {}, its middle needs {:.2f} m",
                                there.x, there.y, nearest.distance_m, nearest.name, needed_m)};
-  if (const auto begin = space_.At(start); begin.distance_m <= 0)
-    return Refusal{"the robot would already be in " + begin.obstacle};
+  if (const auto begin = space_.At(start); begin.distance_m <= 0) return StandsIn(start, begin.obstacle);
   return std::nullopt;
 }
 

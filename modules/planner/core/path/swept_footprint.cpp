@@ -1,5 +1,7 @@
 #include "planner/core/path/swept_footprint.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -75,6 +77,13 @@ double SweptFootprint::FreeBeside(const Pose2& from, const Pose2& to, double sid
 
 Leeway SweptFootprint::LeewayOf(const Pose2& from, const Pose2& to, double margin_m) const {
   return {FreeBeside(from, to, 1, margin_m), FreeBeside(from, to, -1, margin_m)};
+}
+
+Refusal StandsIn(const Pose2& map_from_base, const std::string& obstacle) {
+  return {fmt::format(
+      "the robot stands at ({:.2f}, {:.2f}), where the map has {}; next: drive it clear by hand, or "
+      "correct the map or the pose (priamos map, priamos where)",
+      map_from_base.x, map_from_base.y, obstacle)};
 }
 
 }  // namespace priamos::planner

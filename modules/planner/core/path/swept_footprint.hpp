@@ -3,6 +3,7 @@
 #include <string>
 
 #include "common/geometry.hpp"
+#include "common/outcome.hpp"
 #include "common/robot/leeway.hpp"
 #include "planner/core/map/obstacle_map.hpp"
 #include "planner/core/path/footprint.hpp"
@@ -52,5 +53,8 @@ class SweptFootprint {
   ObstacleMap obstacles_;
   double radius_m_;
 };
+
+/// Why no way begins where the base stands: the map has `obstacle` there. With the next step.
+Refusal StandsIn(const Pose2& map_from_base, const std::string& obstacle);
 
 }  // namespace priamos::planner

@@ -25,6 +25,9 @@ constexpr double kTooNear = 40;  ///< nearer to a thing than it stops
 constexpr double kNear = 8;      ///< nearer to a thing than wished
 /// In a narrow passage, whose jambs seem to be broader than they are: as if they were so much farther off.
 constexpr std::array<std::pair<double, double>, 4> kInto{{{0, 100}, {0.05, 200}, {0.1, 400}, {0.15, 800}}};
+/// Of a thing that is taken as smaller than it is heard so much counts as free floor, at such a cost.
+constexpr double kSmaller_m = 0.1;
+constexpr std::array<std::pair<double, double>, 2> kThrough{{{0, 100}, {0.05, 200}}};
 constexpr double kOutside = 20;  ///< per metre beyond the leeway
 constexpr double kMissed = 20;   ///< per metre beside the end of the path, once: more than the way back there
 constexpr double kSideways = 3;  ///< straight to the side
@@ -91,6 +94,7 @@ struct DetourSearch {
   std::span<const Eigen::Vector2d> things;
   const Detour& last;
   double start_m;  ///< offset where it begins; between it and the path the base may be, to get back
+  Things taken;
 };
 
 /// How far an offset is beyond the leeway.
@@ -99,11 +103,15 @@ double OutsideOf(const Leeway& leeway, double offset_m) {
 }
 
 /// What a metre costs that leads nearer to a thing than each of these distances, the largest first.
-std::vector<std::pair<double, double>> MarginsFor(const Leeway& leeway, const DetourConfig& config) {
+std::vector<std::pair<double, double>> MarginsFor(const Leeway& leeway, const DetourConfig& config,
+                                                  Things taken) {
   std::vector<std::pair<double, double>> margins{{config.wish_m, kNear}, {config.stop_m, kTooNear}};
-  if (!leeway.narrow()) margins.push_back({config.least_m, kNowhere});
+  const bool smaller = taken == Things::kSmaller;
   for (const auto& [into_m, cost] : kInto)
-    if (leeway.narrow()) margins.push_back({config.least_m - into_m, cost});
+    if (leeway.narrow()) margins.emplace_back(config.least_m - into_m, cost);
+  for (const auto& [into_m, cost] : kThrough)
+    if (!leeway.narrow() && smaller) margins.emplace_back(config.least_m - into_m, cost);
+  if (!leeway.narrow()) margins.emplace_back(config.least_m - (smaller ? kSmaller_m : 0), kNowhere);
   return margins;
 }
 
@@ -112,7 +120,7 @@ Lanes CostsAt(const DetourSearch& search, const Station& station) {
   const DetourConfig& config = search.config;
   Lanes near{};
   const Eigen::Vector2d half = search.footprint.Size() / 2;
-  const auto margins = MarginsFor(station.leeway, config);
+  const auto margins = MarginsFor(station.leeway, config, search.taken);
   for (const Eigen::Vector2d& thing : search.things) {
     const Eigen::Vector2d seen = station.base_from_map * thing;
     for (const auto& [margin_m, cost] : margins) {
@@ -194,6 +202,15 @@ bool IsUnreachable(const Reached& reached) {
   return std::all_of(reached.cost.begin(), reached.cost.end(), [](double cost) { return cost == kNowhere; });
 }
 
+/// Whether a way ends beside the end of the path though nothing stands there.
+bool MissesFreeEnd(const DetourSearch& search, const Station& end, int lane) {
+  const double least_m = search.config.least_m;
+  return std::abs(OffsetOf(lane)) > kOnPath_m &&
+         std::all_of(search.things.begin(), search.things.end(), [&](const Eigen::Vector2d& thing) {
+           return search.footprint.Distance(end.base_from_map * thing) > least_m;
+         });
+}
+
 int CheapestLane(const Lanes& costs, double per_metre_aside) {
   int best = kMiddle;
   double least = kNowhere;
@@ -266,10 +283,10 @@ double Detour::SlopeAt(double s) const {
 
 std::optional<Detour> FindDetour(const DetourConfig& config, const Footprint& footprint,
                                  const PathShape& path, const PathPlace& here,
-                                 std::span<const Eigen::Vector2d> things, const Detour& last) {
+                                 std::span<const Eigen::Vector2d> things, const Detour& last, Things taken) {
   const std::vector<Station> stations = StationsFrom(path, here.s, config.horizon_m);
   const int start = StartLane(here.offset_m, stations.front().leeway, last);
-  const DetourSearch search{config, footprint, things, last, OffsetOf(start)};
+  const DetourSearch search{config, footprint, things, last, OffsetOf(start), taken};
   if (start == kMiddle && IsFree(search, stations)) return Detour();
   std::vector<Reached> reached(1);
   reached[0].Offer(start, 0, start, false);
@@ -280,10 +297,12 @@ std::optional<Detour> FindDetour(const DetourConfig& config, const Footprint& fo
   if (reached.size() < 2 && stations.size() > 1) return std::nullopt;
   const bool to_the_end = path.length() - here.s <= config.horizon_m && reached.size() == stations.size();
   const int best = CheapestLane(reached.back().cost, to_the_end ? kMissed : 0);
+  const bool leads_on =
+      reached.size() == stations.size() && !(to_the_end && MissesFreeEnd(search, stations.back(), best));
   auto offsets = Smoothed(Smoothed(Backwards(reached, best)));
   if (start != kMiddle && offsets.size() > 1)
     offsets = BegunBeside(std::clamp(here.offset_m - OffsetOf(start), -kStep_m, kStep_m), std::move(offsets));
-  return Detour(here.s, kStep_m, std::move(offsets));
+  return Detour(here.s, kStep_m, std::move(offsets)).Leading(leads_on);
 }
 
 }  // namespace priamos::robot

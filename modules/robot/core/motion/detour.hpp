@@ -44,12 +44,25 @@ class Detour {
   double from() const { return from_; }
   /// Whether it leaves the path anywhere.
   bool leaves() const { return leaves_; }
+  /// Whether it leads as far ahead as was looked, and at the end of the path to a goal that is free. One that
+  /// does not ends before what closes the way.
+  bool leads_on() const { return leads_on_; }
+  /// The same one, of which that is known.
+  Detour Leading(bool on) const {
+    Detour same = *this;
+    same.leads_on_ = on;
+    return same;
+  }
 
  private:
   double from_ = 0, step_ = 1;
   std::vector<double> offsets_m_;
-  bool leaves_ = false;
+  bool leaves_ = false, leads_on_ = true;
 };
+
+/// How a search takes things: as they are, or as so much smaller as sonars show them too large, by 10 cm at
+/// most. What stops the base does not wait for it.
+enum class Things { kAsHeard, kSmaller };
 
 /// A place on a path: arc length, and how far the base stands to its left [m].
 struct PathPlace {
@@ -62,6 +75,7 @@ struct PathPlace {
 /// is none.
 std::optional<Detour> FindDetour(const DetourConfig& config, const Footprint& footprint,
                                  const PathShape& path, const PathPlace& here,
-                                 std::span<const Eigen::Vector2d> things, const Detour& last);
+                                 std::span<const Eigen::Vector2d> things, const Detour& last,
+                                 Things taken = Things::kAsHeard);
 
 }  // namespace priamos::robot

@@ -356,8 +356,8 @@ void DriveController::NoteBlocked(const Twist2& wanted, const Twist2& given, Tim
 /// is to be told where the path goes on: the base may be going back just now.
 void DriveController::NoteWaiting(const DriveSituation& situation, const Obstacles& around, Time now) {
   const bool on_its_way = state_.mode == DriveMode::kFollowing || state_.mode == DriveMode::kBlocked;
-  if (!on_its_way || !follower_.has_path() || state_.failsafe.action != FailsafeAction::kNone)
-    return progress_.Reset();
+  const bool holds = state_.failsafe.action != FailsafeAction::kNone;
+  if (!on_its_way || !follower_.has_path() || holds || follower_.BacksOff()) return progress_.Reset();
   if (!progress_.GetsNowhere(situation.odom_from_base, follower_.LengthLeft(), now)) return;
   state_.mode = DriveMode::kBlocked;
   state_.slowed_by_sonar = true;

@@ -10,6 +10,12 @@ namespace {
 constexpr double kPassedAtMost = 0.3;
 constexpr double kNearPath_m = 0.3;
 constexpr double kLookedAtEnd_m = 0.02;
+// A base that stood within so much for so long before what closes its way looks for another one.
+constexpr double kStays_m = 0.08, kStays_s = 1.5;
+constexpr double kBackSpeed_m_s = 0.2, kBackEnd_m = 0.03, kHeldBack_s = 3;
+// So often a base goes back before one dead end; beyond it by so much the next one begins.
+constexpr int kMostBackOffs = 3;
+constexpr double kBeyond_m = 0.7;
 
 struct Begin {
   Pose2 start;
@@ -58,6 +64,7 @@ void PathFollower::Follow(const Path& path, const Pose2& pose) {
   const Begin begin = WithoutPassedPoint(path, pose);
   shape_.emplace(config_.shape, begin.start, begin.path);
   detour_ = {};
+  ForgetDeadEnds();
   ahead_ = pose;
   s_ = 0;
   speed_ = 0;
@@ -66,6 +73,7 @@ void PathFollower::Follow(const Path& path, const Pose2& pose) {
 
 void PathFollower::Realign(const Path& path, const Pose2& start) {
   detour_ = detour_.From(s_);
+  ForgetDeadEnds();
   shape_.emplace(config_.shape, start, path);
   s_ = 0;
 }
@@ -73,8 +81,70 @@ void PathFollower::Realign(const Path& path, const Pose2& start) {
 void PathFollower::Avoid(std::span<const Eigen::Vector2d> things, Time now) {
   if (!shape_ || (searched_ && now - *searched_ < FromSeconds(config_.detour.replan_s))) return;
   searched_ = now;
-  if (const auto detour = FindDetour(config_.detour, footprint_, *shape_, Place(), things, detour_))
-    detour_ = *detour;
+  const PathPlace here = Place();
+  if (back_off_) return EndBackOff(here, now);
+  driven_.Note(here);
+  const Things taken = here.s < smaller_to_m_ ? Things::kSmaller : Things::kAsHeard;
+  const auto detour = FindDetour(config_.detour, footprint_, *shape_, here, things, detour_, taken);
+  if (detour) detour_ = *detour;
+  // Who takes things as smaller than they are heard may find out that they are not.
+  const bool leads_on = detour && detour->leads_on() && taken == Things::kAsHeard;
+  if (IsInDeadEnd(here, leads_on, now)) TakeOtherWay(here, things, taken, now);
+}
+
+/// Whether the base has stood on a line that may be left, before what closes it, and may go back once more.
+bool PathFollower::IsInDeadEnd(const PathPlace& here, bool leads_on, Time now) {
+  if (here.s > deepest_m_ + kBeyond_m) back_offs_ = 0;
+  const Leeway leeway = shape_->LeewayAt(here.s);
+  const bool may_leave = (leeway.any() && !leeway.narrow()) || std::abs(here.offset_m) > kStays_m;
+  const bool looks_for_one = !leads_on && !arrived_ && may_leave && back_offs_ < kMostBackOffs;
+  if (!looks_for_one) stands_.reset();
+  return looks_for_one && StandsFor(here, now) >= FromSeconds(kStays_s);
+}
+
+Duration PathFollower::StandsFor(const PathPlace& here, Time now) {
+  const bool moved =
+      !stands_ || std::hypot(here.s - stands_->at.s, here.offset_m - stands_->at.offset_m) > kStays_m;
+  if (moved) stands_ = Stand{here, now};
+  return now - stands_->since;
+}
+
+void PathFollower::TakeOtherWay(const PathPlace& here, std::span<const Eigen::Vector2d> things, Things tried,
+                                Time now) {
+  const auto other = FindOtherWay(config_.detour, footprint_, *shape_, here, things, driven_, tried);
+  stands_ = Stand{here, now};
+  if (!other) return;
+  ++back_offs_;
+  deepest_m_ = std::max(deepest_m_, here.s);
+  smaller_to_m_ = other->taken == Things::kSmaller ? here.s + kBeyond_m : -1;
+  detour_ = other->onward;
+  if (other->back_to_m >= here.s) return;
+  detour_ = other->back;
+  back_off_ = other;
+}
+
+void PathFollower::ForgetDeadEnds() {
+  driven_.Clear();
+  stands_.reset();
+  back_off_.reset();
+  smaller_to_m_ = -1;
+  deepest_m_ = 0;
+  back_offs_ = 0;
+}
+
+/// Where the other way branches off the base goes ahead again; also where something holds it on its way back.
+void PathFollower::EndBackOff(const PathPlace& here, Time now) {
+  const bool there = s_ < back_off_->back_to_m + kBackEnd_m;
+  if (!there && StandsFor(here, now) < FromSeconds(kHeldBack_s)) return;
+  if (there) detour_ = back_off_->onward;
+  back_off_.reset();
+  stands_.reset();
+}
+
+/// Wanted ds/dt; negative on the way back.
+double PathFollower::PaceAt(double left_m) const {
+  if (back_off_) return -std::min(kBackSpeed_m_s, s_ - back_off_->back_to_m + kBackEnd_m);
+  return std::min(shape_->SpeedAt(s_), config_.turn_gain_per_s * left_m);
 }
 
 void PathFollower::LimitSpeeds(const PathShapeConfig& limits) {
@@ -110,7 +180,7 @@ PathFollower::Wanted PathFollower::Step(const Pose2& pose, const Twist2& twist, 
   if (arrived_) return wanted;
 
   // The last centimetres decay with the gain instead of following the braking parabola into its steep end.
-  speed_ = std::min(shape_->SpeedAt(s_), config_.turn_gain_per_s * left);
+  speed_ = PaceAt(left);
   if (detour_.leaves()) speed_ *= std::max(0.0, 1 - error.norm() / config_.aside_m);
   Eigen::Vector2d correction = error * config_.gain_per_s;
   const double fastest = detour_.leaves() ? config_.aside_speed_m_s : config_.correction_speed_m_s;
@@ -124,8 +194,9 @@ PathFollower::Wanted PathFollower::Step(const Pose2& pose, const Twist2& twist, 
 }
 
 /// Beside its goal a base is at the end only of a way that was looked for there: from farther back it could
-/// not see, or not reach, how it gets to the goal itself.
+/// not see, or not reach, how it gets to the goal itself. Nor has one arrived beside a goal that is free.
 bool PathFollower::IsAtGoal(const Pose2& pose) const {
+  if (!detour_.leads_on()) return false;
   if (detour_.leaves() && detour_.from() < shape_->length() - kLookedAtEnd_m) return false;
   if (shape_->length() - s_ > PathShape::kTurnLever * Radians(config_.arrival_deg) + config_.arrival_m)
     return false;

@@ -8,6 +8,7 @@
 #include "common/geometry.hpp"
 #include "common/time.hpp"
 #include "robot/core/base/footprint.hpp"
+#include "robot/core/motion/back_off.hpp"
 #include "robot/core/motion/detour.hpp"
 #include "robot/core/motion/path_shape.hpp"
 
@@ -56,13 +57,16 @@ class PathFollower {
   /// left around things it still is.
   void Realign(const Path& path, const Pose2& start);
   /// Looks, a few times per second, for a way around `things` (map frame [m]) within the leeway of the path,
-  /// and goes by it. A way that was found stays until there is a better one.
+  /// and goes by it. A way that was found stays until there is a better one. Where none leads on and the base
+  /// has stood for a while it goes back over what it has just driven, to where another one branches off.
   void Avoid(std::span<const Eigen::Vector2d> things, Time now);
   /// Changes the fastest speeds, also on the path that is being driven.
   void LimitSpeeds(const PathShapeConfig& limits);
   /// Drops the path; Step then returns a velocity of 0.
   void Drop();
   bool has_path() const { return shape_.has_value(); }
+  /// Whether the base is on its way back out of a dead end.
+  bool BacksOff() const { return shape_ && back_off_; }
   /// How far the line that is being driven may be left; not at all without a path.
   Leeway LeewayHere() const { return shape_ ? shape_->LeewayAt(s_) : Leeway{}; }
   /// Distance left from beside `pose` to the end of the path, which is being driven.
@@ -82,6 +86,12 @@ class PathFollower {
 
  private:
   bool IsAtGoal(const Pose2& pose) const;
+  void TakeOtherWay(const PathPlace& here, std::span<const Eigen::Vector2d> things, Things tried, Time now);
+  bool IsInDeadEnd(const PathPlace& here, bool leads_on, Time now);
+  void ForgetDeadEnds();
+  Duration StandsFor(const PathPlace& here, Time now);
+  void EndBackOff(const PathPlace& here, Time now);
+  double PaceAt(double left_m) const;
   void MoveReference(const Pose2& pose, double dt_s);
   PathShape::Point ReferenceAt(double s) const;
   PathPlace Place() const;
@@ -92,9 +102,20 @@ class PathFollower {
   std::optional<PathShape> shape_;
   Detour detour_;
   std::optional<Time> searched_;  ///< when a way around things was looked for
-  Pose2 ahead_;                   ///< where the base will be when the wheels obey
-  double s_ = 0;                  ///< arc length of the reference point on the path [m]
-  double speed_ = 0;              ///< last wanted ds/dt [m/s]
+  /// A base that stays where it is.
+  struct Stand {
+    PathPlace at;
+    Time since{};
+  };
+  DrivenWay driven_;
+  std::optional<Stand> stands_;
+  std::optional<OtherWay> back_off_;  ///< while the base goes back
+  double smaller_to_m_ = -1;  ///< up to this arc length things are taken as smaller than they are heard
+  double deepest_m_ = 0;      ///< arc length of the farthest dead end
+  int back_offs_ = 0;         ///< before that one
+  Pose2 ahead_;               ///< where the base will be when the wheels obey
+  double s_ = 0;              ///< arc length of the reference point on the path [m]
+  double speed_ = 0;          ///< last wanted ds/dt [m/s]
   bool arrived_ = false;
 };
 

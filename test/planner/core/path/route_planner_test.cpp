@@ -160,7 +160,10 @@ TEST(RoutePlannerTest, RefusalsSayWhy) {
             "at (4.00, 0.45) the base comes within 0.06 m of wall 'south', it needs 0.10 m");
   EXPECT_EQ(dut.Plan({1, 2.4, 0}, {{4, 0.3, 0}, false}).reason(),
             "the goal (4.00, 0.30) is 0.30 m from wall 'south', its middle needs 0.49 m");
-  EXPECT_EQ(dut.Plan({1, 0.2, 0}, {{4, 2.4, 0}}).reason(), "the robot would already be in wall 'south'");
+  EXPECT_EQ(
+      dut.Plan({1, 0.2, 0}, {{4, 2.4, 0}}).reason(),
+      "the robot stands at (1.00, 0.20), where the map has wall 'south'; next: drive it clear by hand, or "
+      "correct the map or the pose (priamos map, priamos where)");
   EXPECT_EQ(dut.Plan({1, 2.4, 0}, {{20, 2.4, 0}}).reason(), "no way of 0.98 m width leads to (20.00, 2.40)");
 }
 

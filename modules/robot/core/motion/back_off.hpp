@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <optional>
+#include <span>
+
+#include "robot/core/base/footprint.hpp"
+#include "robot/core/motion/detour.hpp"
+#include "robot/core/motion/path_shape.hpp"
+
+namespace priamos::robot {
+
+/// Where a base has driven beside its path: what was free a moment ago, and leads out of a dead end.
+class DrivenWay {
+ public:
+  /// Takes where the base is.
+  void Note(const PathPlace& here);
+  /// Distance to the left of the path [m] where the base was last at the arc length `s`; nullopt: it was not.
+  std::optional<double> At(double s) const;
+  void Clear() { offsets_m_.clear(); }
+
+ private:
+  std::map<int, double> offsets_m_;  ///< by steps of 5 cm of arc length
+};
+
+/// A way out of a dead end: back over what was driven to an arc length of the path, and from there ahead.
+struct OtherWay {
+  double back_to_m = 0;  ///< arc length from which it leads ahead
+  Detour back;           ///< beside the path, to be driven backwards
+  Detour onward;
+  Things taken = Things::kAsHeard;  ///< how it takes things
+};
+
+/// Another way than the one that ends at `here`: of those that lead on the one that begins nearest behind
+/// `here`, at most 1.6 m back. Only if there is none are things taken as smaller than they are heard, at
+/// first without going back, unless the one that ends here was `tried` so. nullopt: none leads on.
+std::optional<OtherWay> FindOtherWay(const DetourConfig& config, const Footprint& footprint,
+                                     const PathShape& path, const PathPlace& here,
+                                     std::span<const Eigen::Vector2d> things, const DrivenWay& driven,
+                                     Things tried = Things::kAsHeard);
+
+}  // namespace priamos::robot

@@ -1,0 +1,138 @@
+#include "robot/core/motion/back_off.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "robot/core/motion/path_follower.hpp"
+
+namespace priamos::robot {
+namespace {
+
+constexpr Leeway kAside{1.5, 1.5};
+
+Path Ahead() {
+  return {.id = 1, .speed_m_s = 0.3, .points = {{6, 0, 0}}, .leeway = {kAside}};
+}
+
+PathShape ShapeAhead() {
+  return {PathShapeConfig{}, {}, Ahead()};
+}
+
+/// Points along a straight line, 5 cm apart.
+void AddLine(const Eigen::Vector2d& from, const Eigen::Vector2d& to, std::vector<Eigen::Vector2d>& points) {
+  const int steps = static_cast<int>((to - from).norm() / 0.05);
+  for (int k = 0; k <= steps; ++k) points.emplace_back(from + (to - from) * (double(k) / steps));
+}
+
+/// A pocket 1.1 m wide around the path from x = 1.4 on, shut at x = 2.6; free to the left of its left wall.
+std::vector<Eigen::Vector2d> Pocket() {
+  std::vector<Eigen::Vector2d> points;
+  AddLine({1.4, 0.5}, {2.6, 0.5}, points);
+  AddLine({2.6, 0.5}, {2.6, -2.5}, points);
+  AddLine({1.4, -0.5}, {1.4, -2.5}, points);
+  return points;
+}
+
+DrivenWay DrivenTo(double s) {
+  DrivenWay driven;
+  for (double at = 0; at <= s + 1e-9; at += 0.06) driven.Note({at, 0});
+  return driven;
+}
+
+TEST(BackOff, LeadsOutOfAPocketOverWhatWasDriven) {
+  const PathPlace here{1.92, 0};
+  const auto ahead = FindDetour({}, {}, ShapeAhead(), here, Pocket(), {});
+  ASSERT_TRUE(ahead);
+  EXPECT_FALSE(ahead->leads_on());
+  const auto other = FindOtherWay({}, {}, ShapeAhead(), here, Pocket(), DrivenTo(here.s));
+  ASSERT_TRUE(other);
+  EXPECT_EQ(other->taken, Things::kAsHeard);
+  EXPECT_LT(other->back_to_m, 0.95) << "so that the base is before the pocket";
+  EXPECT_GT(other->onward.At(2.6), 0.85) << "and goes on beside it";
+}
+
+TEST(BackOff, GoesBackOverNothingThatWasNotDriven) {
+  EXPECT_FALSE(FindOtherWay({}, {}, ShapeAhead(), {1.92, 0}, Pocket(), DrivenWay()));
+}
+
+TEST(BackOff, TakesThingsAsSmallerOnlyWhereNoOtherWayLeadsOn) {
+  // A gap of 0.74 m in a wall: 8 cm less than a base with its margins needs.
+  std::vector<Eigen::Vector2d> wall;
+  AddLine({1.4, 0.37}, {1.4, 2.5}, wall);
+  AddLine({1.4, -0.37}, {1.4, -2.5}, wall);
+  const PathPlace here{0.72, 0};
+  const auto other = FindOtherWay({}, {}, ShapeAhead(), here, wall, DrivenTo(here.s));
+  ASSERT_TRUE(other);
+  EXPECT_EQ(other->taken, Things::kSmaller);
+  EXPECT_EQ(other->back_to_m, here.s);
+  // What is heard as 20 cm too narrow is closed.
+  for (Eigen::Vector2d& point : wall) point.y() -= point.y() > 0 ? 0.1 : -0.1;
+  EXPECT_FALSE(FindOtherWay({}, {}, ShapeAhead(), here, wall, DrivenTo(here.s)));
+}
+
+TEST(BackOff, KnowsWhereItDroveBetweenTwoNotesButNotBeyond) {
+  DrivenWay driven;
+  driven.Note({0.50, 0.1});
+  driven.Note({0.60, 0.3});
+  driven.Note({1.50, 0.3});
+  EXPECT_NEAR(driven.At(0.55).value_or(9), 0.2, 1e-9);
+  EXPECT_FALSE(driven.At(1.0));
+  EXPECT_FALSE(driven.At(0.3));
+  EXPECT_FALSE(driven.At(1.8));
+}
+
+/// A follower, with a base that does what it wants, for `seconds`; the farthest back that it went after it
+/// had been farthest ahead [m], and where it is.
+struct Outcome {
+  double went_back_m = 0;
+  Pose2 pose;
+};
+
+Outcome DrivenFor(double seconds, const std::vector<Eigen::Vector2d>& things) {
+  constexpr double kStep_s = 0.02;
+  PathFollower follower{PathFollowerConfig{}};
+  follower.Follow(Ahead(), {});
+  Outcome outcome;
+  double farthest_m = 0;
+  Time now = FromUtime(1'000'000);
+  for (double t = 0; t < seconds; t += kStep_s, now += FromSeconds(kStep_s)) {
+    follower.Avoid(things, now);
+    const Twist2 twist = follower.Step(outcome.pose, {}, 0, kStep_s).twist;
+    outcome.pose = Integrate(outcome.pose, twist, kStep_s);
+    farthest_m = std::max(farthest_m, outcome.pose.x);
+    outcome.went_back_m = std::max(outcome.went_back_m, farthest_m - outcome.pose.x);
+  }
+  return outcome;
+}
+
+TEST(BackOff, ABaseThatWasToldOfAPocketTooLateComesOutOfItAndArrives) {
+  // From inside it, where it was led by a path along which nothing had been heard.
+  constexpr double kStep_s = 0.02;
+  PathFollower follower{PathFollowerConfig{}};
+  follower.Follow(Ahead(), {});
+  Pose2 pose;
+  Time now = FromUtime(1'000'000);
+  double farthest_back_m = 9;
+  for (double t = 0; t < 60; t += kStep_s, now += FromSeconds(kStep_s)) {
+    const bool heard = pose.x > 1.5 || farthest_back_m < 9;
+    if (heard) farthest_back_m = std::min(farthest_back_m, pose.x);
+    follower.Avoid(heard ? Pocket() : std::vector<Eigen::Vector2d>{}, now);
+    pose = Integrate(pose, follower.Step(pose, {}, 0, kStep_s).twist, kStep_s);
+  }
+  EXPECT_LT(farthest_back_m, 1.0);
+  EXPECT_NEAR(pose.x, 6, 0.02);
+  EXPECT_NEAR(pose.y, 0, 0.02);
+}
+
+TEST(BackOff, BeforeAWallItStandsAndDoesNotGoToAndFro) {
+  std::vector<Eigen::Vector2d> wall;
+  AddLine({2.5, -3}, {2.5, 3}, wall);
+  const Outcome outcome = DrivenFor(40, wall);
+  EXPECT_LT(outcome.went_back_m, 0.1);
+  EXPECT_LT(outcome.pose.x, 2.1);
+}
+
+}  // namespace
+}  // namespace priamos::robot
