@@ -52,6 +52,7 @@ const std::map<std::string, std::string> kWithoutUnit{
     {"test/cli/verbs/log/foreign_log_test", "all verbs of the room on logs of other robots"},
     {"test/head/landmark_models_test", "planner's landmarks in the head's hands"},
     {"test/head/live_parameters_test", "every parameter that head_config marks as live"},
+    {"test/head/narrow_door_test", "pictures of a run, by the shipped configuration"},
     {"test/head/real_photographs_test", "the whole of seeing on photographs"},
     {"test/planner/core/locate/no_wrong_place_test", "the whole room in buildings made up"},
     {"test/planner/live_parameters_test", "every parameter that planner_config marks as live"},

@@ -30,9 +30,7 @@ class Judge {
   }
 
   Verdict Of(const BodyState& state, const FreeModelFix& fix) const {
-    const int n_linked = static_cast<int>(state.association.matches.size());
-    const int n_found = fix.contour ? std::max(n_linked, fix.contour->n_seen) : n_linked;
-    if (n_found < options_.min_matched || fix.log_odds < options_.min_log_odds || !Agrees(state, fix) ||
+    if (fix.log_odds < options_.min_log_odds || !Convinces(state, fix) ||
         !IsWithin(options_.max_sigma_share, options_.max_sigma_rad, state))
       return Verdict::kTooFewEdges;
     if (fix.misfit > options_.max_misfit) return Verdict::kResidualTooLarge;
@@ -43,11 +41,16 @@ class Judge {
   }
 
  private:
-  bool Agrees(const BodyState& state, const FreeModelFix& fix) const {
+  /// Enough edges that were linked agree; or the grey values show enough of the contour, as in blurred
+  /// images, whose edges link in pieces or not at all.
+  bool Convinces(const BodyState& state, const FreeModelFix& fix) const {
+    const int n_linked = static_cast<int>(state.association.matches.size());
     const double agreement = fix.agreement.Value(fix.misfit);
-    if (fix.contour) return fix.contour->Value(agreement) >= options_.min_evidence;
     const bool fine = IsWithin(options_.fine_sigma_share, options_.fine_sigma_rad, state);
-    return agreement >= (fine ? options_.min_agreement : options_.min_agreement_when_coarse);
+    const double wanted = fine ? options_.min_agreement : options_.min_agreement_when_coarse;
+    if (n_linked >= options_.min_matched && agreement >= wanted) return true;
+    return fix.contour && std::max(n_linked, fix.contour->n_seen) >= options_.min_matched &&
+           fix.contour->Value(agreement) >= options_.min_evidence;
   }
 
   /// Whether the edges tell the pose so well.

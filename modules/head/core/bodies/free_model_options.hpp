@@ -14,7 +14,7 @@ struct FreeModelOptions {
   BodyProposalOptions proposals{};
   int min_matched = 6;      ///< edges that must be found or seen, all images together
   double min_log_odds = 6;  ///< of the body there against clutter only
-  /// ContourEvidence::Value; where the images are not at hand, the agreement alone decides.
+  /// ContourEvidence::Value: enough by itself, as the agreement is.
   double min_evidence = 3.42;
   double min_agreement = 1.15;  ///< BodyAgreement::Value
   /// The same where the edges tell the pose less well than fine_sigma_*, as of a small body: one of another
