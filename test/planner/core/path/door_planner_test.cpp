@@ -102,7 +102,8 @@ TEST(DoorPlanner, RefusesToStartBehindTheDoor) {
 
 TEST(DoorPlanner, RefusesToStartInAWall) {
   const Fixture f;
-  EXPECT_THAT(f.Make().PlanPassage(f.door(), {3, 0.2, 0}).reason(), HasSubstr("in wall 'south'"));
+  EXPECT_THAT(f.Make().PlanPassage(f.door(), {3, 0.2, 0}).reason(),
+              HasSubstr("where the map has wall 'south'"));
 }
 
 TEST(DoorPlanner, SeesAWallAcrossTheWay) {

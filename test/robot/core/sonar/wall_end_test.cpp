@@ -1,7 +1,6 @@
 #include "robot/core/sonar/wall_end.hpp"
 
 #include <gmock/gmock.h>
-#include <rapidcheck/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -44,11 +43,15 @@ TEST(FindWallEnd, AFewEchoesTellNoBend) {
   EXPECT_EQ(FindWallEnd(few, {}).along_m, 0.3);
 }
 
-RC_GTEST_PROP(FindWallEnd, IsWithinThreeSigmasUnderNoise, (std::uint64_t seed)) {
-  Rng rng(seed);
-  const double line_m = rng.Uniform(0.4, 2), beyond_m = line_m * rng.Uniform(0, 0.25);
-  const WallEnd dut = FindWallEnd(Echoes(line_m, beyond_m, 0, &rng), {});
-  RC_ASSERT(std::abs(dut.along_m) < 3 * dut.sigma_m + 0.03);
+TEST(FindWallEnd, IsWithinThreeSigmasUnderNoiseNearlyAlways) {
+  int within = 0;
+  for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
+    Rng rng(seed);
+    const double line_m = rng.Uniform(0.4, 2), beyond_m = line_m * rng.Uniform(0, 0.25);
+    const WallEnd dut = FindWallEnd(Echoes(line_m, beyond_m, 0, &rng), {});
+    within += std::abs(dut.along_m) < 3 * dut.sigma_m + 0.03 ? 1 : 0;
+  }
+  EXPECT_GE(within, 990);
 }
 
 }  // namespace
