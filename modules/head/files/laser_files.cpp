@@ -88,11 +88,11 @@ CalibratedLaser CalibrateOne(const std::vector<PictureViews>& pictures, std::siz
   const auto result = CalibrateLaserPlane(views);
   if (!result) throw ConfigError(fmt::format("{}: line {}: {}", path, number + 1, result.reason()));
   laser.result = *result;
-  if (const double x = laser.result.plane.FloorAhead_m(); !(x >= kNearestLight_m && x <= kFarthestLight_m))
+  if (const LaserPlane& plane = laser.result.plane; !plane.MeetsFloorAhead())
     throw ConfigError(fmt::format(
         "{}: line {}: its light would meet the floor {:.2f} m ahead of the base centre, expected {} to {} m; "
         "are `board_m`, `normal` and `line` of the views right?",
-        path, number + 1, x, kNearestLight_m, kFarthestLight_m));
+        path, number + 1, plane.FloorAhead_m(), kNearestLight_m, kFarthestLight_m));
   return laser;
 }
 

@@ -30,7 +30,7 @@ class Judge {
   }
 
   Verdict Of(const BodyState& state, const FreeModelFix& fix) const {
-    if (fix.log_odds < options_.min_log_odds || !Convinces(state, fix) ||
+    if (fix.log_odds < options_.min_log_odds || !(Agrees(state, fix) || IsShown(state, fix)) ||
         !IsWithin(options_.max_sigma_share, options_.max_sigma_rad, state))
       return Verdict::kTooFewEdges;
     if (fix.misfit > options_.max_misfit) return Verdict::kResidualTooLarge;
@@ -40,17 +40,22 @@ class Judge {
     return std::hypot(shift, turn) > options_.max_prior_sigmas ? Verdict::kElsewhere : Verdict::kFound;
   }
 
- private:
-  /// Enough edges that were linked agree; or the grey values show enough of the contour, as in blurred
-  /// images, whose edges link in pieces or not at all.
-  bool Convinces(const BodyState& state, const FreeModelFix& fix) const {
-    const int n_linked = static_cast<int>(state.association.matches.size());
-    const double agreement = fix.agreement.Value(fix.misfit);
+  /// Whether enough edges that were linked agree.
+  bool Agrees(const BodyState& state, const FreeModelFix& fix) const {
     const bool fine = IsWithin(options_.fine_sigma_share, options_.fine_sigma_rad, state);
-    const double wanted = fine ? options_.min_agreement : options_.min_agreement_when_coarse;
-    if (n_linked >= options_.min_matched && agreement >= wanted) return true;
-    return fix.contour && std::max(n_linked, fix.contour->n_seen) >= options_.min_matched &&
-           fix.contour->Value(agreement) >= options_.min_evidence;
+    return Linked(state) >= options_.min_matched &&
+           fix.agreement.Value(fix.misfit) >=
+               (fine ? options_.min_agreement : options_.min_agreement_when_coarse);
+  }
+
+ private:
+  static int Linked(const BodyState& state) { return static_cast<int>(state.association.matches.size()); }
+
+  /// Whether the grey values show enough of the contour, as in blurred images, whose edges link in pieces or
+  /// not at all.
+  bool IsShown(const BodyState& state, const FreeModelFix& fix) const {
+    return fix.contour && std::max(Linked(state), fix.contour->n_seen) >= options_.min_matched &&
+           fix.contour->Value(fix.agreement.Value(fix.misfit)) >= options_.min_evidence;
   }
 
   /// Whether the edges tell the pose so well.
@@ -116,7 +121,7 @@ FreeModelFix LocateFreeModel(const Polyhedron& body, const Eigen::Isometry3d& be
   fix.misfit = best.variance_scale;
   fix.log_odds = best.LogOdds(unit);
   fix.agreement = AgreementOf(best.association, search.blur_px());
-  if (!search.meters().empty())
+  if (!search.meters().empty() && !judge.Agrees(best, fix))
     fix.contour = EvidenceOf(best.seen, best.base_from_model, views, search.meters());
   for (const BodyState& other : states)
     if (judge.AreDistinct(best, other))

@@ -22,7 +22,7 @@ struct FreeModelFix {
   double misfit = 0;    ///< variance of the edges over the one that was expected
   double log_odds = 0;  ///< Association::log_odds, less what the model had to be bent
   BodyAgreement agreement{};
-  std::optional<ContourEvidence> contour{};  ///< nullopt: the images are not at hand
+  std::optional<ContourEvidence> contour{};  ///< where linked edges do not agree enough
   double rival_log_odds = 0;                 ///< of the best different pose
   LandmarkModel seen;                        ///< what is visible of it at that pose
   std::vector<EdgeMatch> matches;            ///< edges of `seen`

@@ -7,6 +7,9 @@
 
 namespace priamos::head {
 
+/// Limits of what is a point of the light before the robot [m].
+inline constexpr double kNearestLight_m = 0.2, kFarthestLight_m = 8;
+
 /// The light plane of the line laser in the base frame. The laser is mounted on the robot, not on the head,
 /// so the plane does not depend on the head's setting.
 struct LaserPlane {
@@ -20,12 +23,13 @@ struct LaserPlane {
   /// How far straight ahead of the base centre its light meets a level floor [m]; infinite or not a number
   /// where it meets none.
   double FloorAhead_m() const { return -offset_m / normal.x(); }
+  /// Whether that is from kNearestLight_m to kFarthestLight_m.
+  bool MeetsFloorAhead() const {
+    return FloorAhead_m() >= kNearestLight_m && FloorAhead_m() <= kFarthestLight_m;
+  }
   /// Light plane in the frame of a camera (x right, y down, z forward) at this pose.
   Eigen::Hyperplane<double, 3> InCamera(const Eigen::Isometry3d& base_from_camera) const;
 };
-
-/// Limits of what is a point of the light before the robot [m].
-inline constexpr double kNearestLight_m = 0.2, kFarthestLight_m = 8;
 
 /// The point of a plane that a camera shows in a pixel [distorted px]; nullopt for a plane seen edge-on or
 /// behind the camera.

@@ -157,11 +157,11 @@ LaserPlane ReadLaser(const cv::FileNode& node) {
   laser.pivot_m = ReadVector(node, "pivot_m");
   laser.sigma_turn_rad = Number(node, "sigma_turn_rad", 0, 1);
   laser.sigma_shift_m = Number(node, "sigma_shift_m", 0, 1);
-  if (const double x = laser.FloorAhead_m(); !(x >= kNearestLight_m && x <= kFarthestLight_m))
+  if (!laser.MeetsFloorAhead())
     throw Damage{fmt::format(
         "laser: its light meets the floor {:.2f} m ahead of the base centre, expected {} to {} m; calibrate "
         "it anew with `priamos calibrate --laser`",
-        x, kNearestLight_m, kFarthestLight_m)};
+        laser.FloorAhead_m(), kNearestLight_m, kFarthestLight_m)};
   return laser;
 }
 
