@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <utility>
 
@@ -45,15 +44,14 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
       head_(config.mode == "calibrate" ? HeadModel{}
                                        : LoadHeadModel(context.ResolvePath(config.calibration))),
       positioner_(config.motors),
-      watch_(config.laser),
-      floor_(head_, config.laser.obstacle),
+      floor_(config, head_, context),
       follow_(config.follow),
       look_(config.look, CamerasOf(config, head_),
             config.pictures.empty() ? LookSequence::Exposures::kOwn : LookSequence::Exposures::kRecorded),
       evaluator_(head_, EvaluatorOptions(config, head_)),
       glances_(config, head_, context),
       drift_(config.drift),
-      cameras_(context.instance() + "-camera"),
+      pictures_(config, context),
       head_state_(context.node().Subscribe(channels::kHeadState)),
       frames_(context.node().SubscribeAll(channels::kCameraFrame)),
       pose_(context.node().SubscribeAll(channels::kPose)),
@@ -65,20 +63,11 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
       trigger_(context.node().Advertise(channels::kCameraTrigger)),
       fix_(context.node().Advertise(channels::kLandmarkFix)),
       door_seen_(context.node().Advertise(channels::kDoorSeen)),
-      view_(context.node().Advertise(channels::kLandmarkView)),
-      obstacle_(context.node().Advertise(channels::kObstacleLine)) {
+      view_(context.node().Advertise(channels::kLandmarkView)) {
   if (config.mode == "calibrate") {
     calibration_.emplace(config, context);
     return;
   }
-  if (!config.pictures.empty()) {
-    const std::string folder = context.ResolvePath(config.pictures);
-    if (!std::filesystem::is_directory(folder))
-      throw ConfigError(
-          fmt::format("pictures: expected a folder with the pictures of a log, got {}", folder));
-    pictures_.emplace(folder);
-  }
-  if (!config.keep_pictures.empty()) kept_.emplace(context.ResolvePath(config.keep_pictures));
   // What a look needs must be known before the first one.
   for (const Camera camera : {kLeft, kRight}) {
     const auto model = head_.CameraAt(config.LookSetting(), camera);
@@ -88,24 +77,6 @@ HeadApp::HeadApp(const HeadConfig& config, bus::Context& context)
                                     model.reason()));
   }
   OpenVideo();
-  if (config.laser.rate_hz > 0 && head_.lasers.empty())
-    throw ConfigError(
-        fmt::format("{}: lasers: expected the planes of the line lasers for laser.rate_hz above 0, got "
-                    "none; calibrate it with `priamos calibrate --laser`",
-                    context.ResolvePath(config.calibration)));
-  if (config.laser.rate_hz > 0 && LinesSeen(head_, config.WatchSetting()) == 0)
-    throw ConfigError(fmt::format(
-        "laser.tilt_deg: expected a tilt at which the third camera sees a line of the lasers in {}, "
-        "got {:.1f} degrees",
-        context.ResolvePath(config.calibration), config.laser.tilt_deg));
-}
-
-/// Of a log: whether the head that was recorded used this picture, as far as it is still there. What it did
-/// not use, because the head moved, it did not keep.
-bool HeadApp::WasUsed(const FrameNotice& frame) {
-  if (!pictures_ || frame.camera > kRight || pictures_->Has(frame)) return true;
-  lost_ = look_.active();
-  return false;
 }
 
 /// The log goes on to its next look: the picture of this one is lost.
@@ -161,12 +132,13 @@ void HeadApp::Tick(Time now) {
   WatchFloor(now);
   glances_.Tell(now);
   ServeVideo(now);
+  ReportHealth();
 }
 
 void HeadApp::TakeMessages(Time now) {
   if (const auto state = head_state_.Take()) {
     report_ = FromMessage(*state);
-    watch_.Report(report_->setting, report_->moving, report_->time);
+    floor_.Report(report_->setting, report_->moving, report_->time);
   }
   for (const pose_t& message : pose_.Drain()) {
     const auto sample = FromMessage(message);
@@ -181,8 +153,12 @@ void HeadApp::TakeMessages(Time now) {
   }
   for (const camera_frame_t& message : frames_.Drain()) {
     const FrameNotice frame = FromMessage(message);
-    if (WasUsed(frame)) look_.Add(frame);
-    if (const auto setting = watch_.Takes(frame)) ReportFloor(frame, *setting);
+    if (pictures_.WasUsed(frame))
+      look_.Add(frame);
+    else
+      lost_ = look_.active();
+    if (const auto setting = floor_.Takes(frame))
+      floor_.Evaluate(pictures_.Read(frame), *setting, frame.exposure);
     if (video_ && video_->Takes(frame)) ShowVideo(frame);
   }
   for (const look_request_t& message : look_requests_.Drain()) {
@@ -251,8 +227,8 @@ void HeadApp::EndGlance() {
 void HeadApp::UseGlance() {
   const Frames frames = look_.frames();
   if (const auto robot = poses_.At(frames[kLeft].exposure))
-    glances_.Add({Picture(frames[kLeft]), Picture(frames[kRight]),
-                  frames.size() > kThird ? Picture(frames[kThird]) : std::nullopt},
+    glances_.Add({pictures_.Read(frames[kLeft]), pictures_.Read(frames[kRight]),
+                  frames.size() > kThird ? pictures_.Read(frames[kThird]) : std::nullopt},
                  report_->setting, *robot);
   EndGlance();
 }
@@ -305,47 +281,27 @@ void HeadApp::Look(Time now) {
   }
 }
 
-/// Wherever the third camera rests with a line of a laser in view it watches the floor.
 void HeadApp::WatchFloor(Time now) {
-  if (config_.laser.rate_hz <= 0) return;
-  WatchMoment moment;
   const bool by_hand = jog_.IsHeld(now);
   // Who drives needs looks or glances: the head stays ready for them.
-  moment.needed =
+  const bool needed =
       look_.active() || !orders_.empty() || by_hand || aim_.IsHeld(now) || glances_.LooksWhereItDrives();
-  if (report_ && !report_->moving && !by_hand && !positioner_.moving()) {
-    const std::size_t n = LinesSeen(head_, report_->setting);
-    moment.sees = n > 0;
-    moment.sees_all = n == head_.lasers.size();
-  }
-  moment.exposing = look_.exposed_at() == now;
-  switch (watch_.Step(moment, report_ ? report_->setting : HeadSetting{}, now)) {
+  std::optional<HeadSetting> rests_at;
+  if (report_ && !report_->moving && !by_hand && !positioner_.moving()) rests_at = report_->setting;
+  switch (floor_.Step(needed, look_.exposed_at() == now, rests_at, now)) {
     case LaserWatch::Action::kWait:
       return;
     case LaserWatch::Action::kLower:
       looked_at_.reset();
       return positioner_.MoveTo(config_.WatchSetting(), now);
     case LaserWatch::Action::kTrigger:
-      trigger_.Publish(TriggerMessage(watch_.frame_id(), CameraBit(kThird) | kLaserBit, now));
+      trigger_.Publish(TriggerMessage(floor_.frame_id(), CameraBit(kThird) | kLaserBit, now));
   }
-}
-
-void HeadApp::ReportFloor(const FrameNotice& frame, const HeadSetting& setting) {
-  const auto floor = floor_.Evaluate(Picture(frame), setting);
-  if (!floor) return;
-  obstacle_.Publish(ToMessage(floor->lines, frame.exposure));
-  if (floor->new_obstacle) context_.Log(bus::Level::kInfo, Describe(*floor->new_obstacle));
-  if (floor->lines_lost)
-    context_.Log(
-        bus::Level::kWarning,
-        fmt::format("{} pictures in a row showed no line of the lasers where the calibration has it: "
-                    "are they on, and is it theirs (priamos calibrate --laser)?",
-                    FloorEvaluator::kLostAfter));
 }
 
 /// The robot sees without it: one that cannot be opened is only reported.
 void HeadApp::OpenVideo() {
-  if (config_.video.port == 0 || context_.lockstep() || pictures_) return;
+  if (config_.video.port == 0 || context_.lockstep() || pictures_.recorded()) return;
   const std::string& tokens = config_.video.token_file;
   try {
     video_ = std::make_unique<VideoLink>(config_.video, context_.robot(),
@@ -362,16 +318,16 @@ void HeadApp::ServeVideo(Time now) {
 }
 
 void HeadApp::ShowVideo(const FrameNotice& frame) {
-  if (const auto picture = cameras_.Read(frame)) video_->Show(frame.exposure, *picture);
+  if (const auto picture = pictures_.Show(frame)) video_->Show(frame.exposure, *picture);
 }
 
 LookInput HeadApp::InputOf(const Frames& frames) {
   const auto model = models_.find(orders_.front().landmark_id);
   return {model == models_.end() ? nullptr : &model->second,
           poses_.At(frames[kLeft].exposure),
-          {Picture(frames[kLeft]), Picture(frames[kRight])},
+          {pictures_.Read(frames[kLeft]), pictures_.Read(frames[kRight])},
           report_->setting,
-          frames.size() > kThird ? Picture(frames[kThird]) : std::nullopt};
+          frames.size() > kThird ? pictures_.Read(frames[kThird]) : std::nullopt};
 }
 
 LookAnswer HeadApp::Evaluate(const Frames& frames) {
@@ -387,33 +343,17 @@ LookAnswer HeadApp::Evaluate(const Frames& frames) {
   return answer;
 }
 
-std::optional<GreyImage> HeadApp::Picture(const FrameNotice& frame) {
-  if (pictures_) {
-    auto kept = pictures_->Read(frame);
-    if (kept) return std::move(*kept);
-    context_.Log(bus::Level::kWarning, kept.reason());
-    return std::nullopt;
-  }
-  auto image = cameras_.Read(frame);
-  if (!image || !kept_) return image;
-  if (const auto refusal = kept_->Keep(frame, *image)) {
-    if (not_kept_++ == 0) context_.Log(bus::Level::kWarning, refusal->reason);
-    ReportHealth();
-  }
-  return image;
-}
-
 /// A camera that has moved makes fixes wrong; a picture that is not kept only makes the log poorer.
 void HeadApp::ReportHealth() {
   if (drift_.alarm()) return context_.SetHealth(bus::Health::kDegraded, drift_.alarm()->ToText());
-  if (not_kept_ == 0) return context_.SetHealth(bus::Health::kOk);
-  context_.SetHealth(bus::Health::kDegraded, fmt::format("{} pictures could not be kept", not_kept_));
+  if (pictures_.n_not_kept() == 0) return context_.SetHealth(bus::Health::kOk);
+  context_.SetHealth(bus::Health::kDegraded,
+                     fmt::format("{} pictures could not be kept", pictures_.n_not_kept()));
 }
 
 void HeadApp::Judge(const StereoDrift& drift) {
   const bool was_well = !drift_.alarm();
   drift_.Add(drift);
-  ReportHealth();
   if (was_well && drift_.alarm()) context_.Log(bus::Level::kWarning, drift_.alarm()->ToText());
 }
 

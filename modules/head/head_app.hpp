@@ -12,17 +12,17 @@
 #include "head/calibration_mode.hpp"
 #include "head/core/camera/head_model.hpp"
 #include "head/core/drift/drift_monitor.hpp"
-#include "head/core/look/floor_evaluator.hpp"
 #include "head/core/look/look_evaluator.hpp"
 #include "head/core/motion/aim.hpp"
 #include "head/core/motion/follow_up.hpp"
 #include "head/core/motion/gaze.hpp"
 #include "head/core/motion/head_aim.hpp"
 #include "head/core/motion/head_jog.hpp"
+#include "head/floor_watch.hpp"
 #include "head/glances.hpp"
 #include "head/head_config.hpp"
 #include "head/head_messages.hpp"
-#include "head/picture_folder.hpp"
+#include "head/picture_source.hpp"
 #include "head/video_link.hpp"
 #include "lcmtypes/channels.hpp"
 
@@ -66,14 +66,11 @@ class HeadApp {
   void MoveByHand(Time now);
   void Look(Time now);
   void WatchFloor(Time now);
-  void ReportFloor(const FrameNotice& frame, const HeadSetting& setting);
   void OpenVideo();
   void ServeVideo(Time now);
   void ShowVideo(const FrameNotice& frame);
   LookAnswer Evaluate(const Frames& frames);
-  bool WasUsed(const FrameNotice& frame);
   void EndWithoutPictures(Time now);
-  std::optional<GreyImage> Picture(const FrameNotice& frame);
   void Judge(const StereoDrift& drift);
   void ReportHealth();
   HeadSetting SettingOf(const LookOrder& order, Time now);
@@ -88,8 +85,7 @@ class HeadApp {
   HeadPositioner positioner_;
   HeadJog jog_;
   AimKeeper aim_;
-  LaserWatch watch_;
-  FloorEvaluator floor_;
+  FloorWatch floor_;
   FollowUp follow_;
   LookSequence look_;
   LookEvaluator evaluator_;
@@ -103,10 +99,8 @@ class HeadApp {
   bool beyond_ = false;                   ///< and is a look at what stands beyond its landmark
   std::optional<HeadSetting> beyond_at_;  ///< where the head stands for looks beyond the landmark
   std::optional<LookOrder> looked_at_;    ///< for which the head stands as it does; none: for something else
-  CameraReader cameras_;
-  std::optional<PictureFolder> pictures_, kept_;
-  int not_kept_ = 0;
-  bool lost_ = false;  ///< a picture of the present look is not in pictures_
+  PictureSource pictures_;
+  bool lost_ = false;  ///< a picture of the present look is lost to the log
   std::optional<HeadReport> report_;
   std::unique_ptr<VideoLink> video_;  ///< none in lockstep and on a log
 
@@ -122,7 +116,6 @@ class HeadApp {
   bus::Publisher<landmark_fix_t> fix_;
   bus::Publisher<door_seen_t> door_seen_;
   bus::Publisher<landmark_view_t> view_;
-  bus::Publisher<obstacle_line_t> obstacle_;
 };
 
 }  // namespace priamos::head
