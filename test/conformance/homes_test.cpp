@@ -55,13 +55,18 @@ const std::map<std::string, std::string> kWithoutUnit{
     {"test/head/narrow_door_test", "pictures of a run, by the shipped configuration"},
     {"test/head/real_photographs_test", "the whole of seeing on photographs"},
     {"test/planner/core/locate/no_wrong_place_test", "the whole room in buildings made up"},
+    {"test/planner/core/missions/door_blocked_test", "the door mission where its way is closed"},
+    {"test/planner/core/missions/door_looks_test", "the looks of the door mission"},
     {"test/planner/live_parameters_test", "every parameter that planner_config marks as live"},
     {"test/planner/second_mission_test", "a mission that is not shipped"},
     {"test/radio/command_freshness_test", "age of a command through the process"},
+    {"test/radio/foreign_types_test", "types that were never compiled in, through the process"},
     {"test/radio/link_config_test", "the link tables of config/ against the channels"},
     {"test/radio/link_refusals_test", "every refusal of a link table and of its budget"},
+    {"test/radio/radio_start_test", "every refusal of the process's configuration"},
     {"test/radio/rekey_test", "a change of the key through the process"},
     {"test/radio/robots_config_test", "what the files of several robots say together"},
+    {"test/radio/unknown_states_test", "codes of no known state, through the process"},
     {"test/robot/core/motion/corridor_run_test", "the whole room between walls"},
     {"test/robot/core/motion/detour_run_test", "the whole room around boxes"},
     {"test/robot/core/motion/door_run_test", "the whole room in one run"},
@@ -71,7 +76,9 @@ const std::map<std::string, std::string> kWithoutUnit{
     {"test/robot/core/pose/pose_consistency_test", "statistics of the whole room"},
     {"test/robot/core/sonar/blind_gaps_test", "the whole room between two beams"},
     {"test/robot/live_parameters_test", "every parameter that robot_config marks as live"},
+    {"test/robot/robot_operator_test", "the process under an operator"},
     {"test/robot/robot_readme_test", "the README of the module"},
+    {"test/robot/robot_restart_test", "the process started again"},
 };
 
 /// Folders of test/ that mirror nothing.

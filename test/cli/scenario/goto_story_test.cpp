@@ -5,18 +5,13 @@
 #include <utility>
 #include <vector>
 
-#include "stage.hpp"
+#include "mission_stage.hpp"
 
 namespace priamos::cli {
 namespace {
 
 Scenario TwoPlaces() {
-  Scenario scenario;
-  scenario.story = "goto";
-  scenario.time_limit_s = 60;
-  scenario.processes.resize(1);
-  scenario.processes[0].module = "robot";
-  scenario.processes[0].bus = "onboard";
+  Scenario scenario = ScenarioOf("goto");
   scenario.waypoints = {{.x_m = 4, .y_m = 1, .yaw_deg = 90}, {.x_m = 2, .y_m = 2, .yaw_deg = 0}};
   return scenario;
 }

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "stage.hpp"
+#include "mission_stage.hpp"
 
 namespace priamos::cli {
 namespace {
@@ -10,12 +10,8 @@ namespace {
 using testing::HasSubstr;
 
 Scenario TwoPlaces() {
-  Scenario scenario;
-  scenario.story = "patrol";
+  Scenario scenario = ScenarioOf("patrol");
   scenario.time_limit_s = 600;
-  scenario.processes.resize(1);
-  scenario.processes[0].module = "robot";
-  scenario.processes[0].bus = "onboard";
   scenario.waypoints = {{.x_m = 4, .y_m = 1, .yaw_deg = 90}, {.x_m = 2, .y_m = 2, .yaw_deg = 0}};
   return scenario;
 }
