@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/config.hpp"
+#include "planner/agenda_messages.hpp"
 #include "planner/core/map/map_landmarks.hpp"
 #include "planner/planner_messages.hpp"
 

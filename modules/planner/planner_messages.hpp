@@ -1,17 +1,13 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <string_view>
 
 #include "lcmtypes/channels.hpp"
-#include "planner/core/agenda/agenda.hpp"
 #include "planner/core/missions/mission_types.hpp"
 
 namespace priamos::planner {
 
-/// The order that a command gives: the steps of RUN, else its one mission.
-AgendaOrder OrderIn(const mission_command_t& message);
 RobotPose FromMessage(const pose_t& message);
 DriveReport FromMessage(const drive_status_t& message);
 PassedOpening FromMessage(const opening_t& message);
@@ -31,10 +27,6 @@ path_t ToMessage(const PathOrder& path, Time now);
 plan_walls_t ToMessage(const std::vector<WallFace>& faces, double sigma_m);
 look_request_t ToMessage(const LookOrder& look, Time now);
 pose_reset_t ToMessage(const PlaceOrder& place, Time now);
-/// So many of the newest ends are in a status, which has to fit a datagram.
-inline constexpr std::size_t kShownResults = 3;
-/// How the orders stand. `n_later`: so many of the newest ends are left for a later status.
-mission_status_t StatusOf(const Agenda& agenda, Time now, std::size_t n_later = 0);
 
 /// The words that a person reads for a verdict or limit.
 std::string_view FixVerdictText(int verdict);
