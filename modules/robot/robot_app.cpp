@@ -15,9 +15,6 @@ constexpr double kTouchNoticed_s = 0.25, kLeastSlip_m = 0.02, kLeastSlip_rad = R
 constexpr double kOpeningRate_hz = 1;
 constexpr Duration kOpeningRepeated = std::chrono::seconds(60);
 
-/// Slower than this the base stands: encoders tell no less.
-constexpr double kStands_m_s = 0.01, kStands_rad_s = 0.01;
-
 /// Why a path is not driven; empty when it is.
 std::string_view Refusal(PathVerdict verdict) {
   switch (verdict) {
@@ -48,6 +45,8 @@ RobotApp::RobotApp(const RobotConfig& config, bus::Context& context)
       drive_(config.drive, config.base),
       opening_watch_(config.opening, config.drive.footprint),
       features_(config, context),
+      corrector_(config, context),
+      reporter_(context),
       wheels_(context.node().SubscribeAll(channels::kWheelState)),
       currents_(context.node().SubscribeAll(channels::kMotorCurrent)),
       bumper_(context.node().SubscribeAll(channels::kBumper)),
@@ -56,8 +55,6 @@ RobotApp::RobotApp(const RobotConfig& config, bus::Context& context)
       things_(context.node().SubscribeAll(channels::kSceneObject)),
       paths_(context.node().SubscribeAll(channels::kPath)),
       plan_walls_(context.node().SubscribeAll(channels::kPlanWalls)),
-      fixes_(context.node().SubscribeAll(channels::kLandmarkFix)),
-      pose_resets_(context.node().SubscribeAll(channels::kPoseReset)),
       commands_(context.node().SubscribeAll(channels::kDriveCommand)),
       lease_requests_(context.node().SubscribeAll(channels::kLeaseRequest)),
       estops_(context.node().SubscribeAll(channels::kEstop)),
@@ -67,7 +64,6 @@ RobotApp::RobotApp(const RobotConfig& config, bus::Context& context)
       odometry_(context.node().Advertise(channels::kOdometry)),
       pose_(context.node().Advertise(channels::kPose)),
       status_(context.node().Advertise(channels::kDriveStatus)),
-      correction_(context.node().Advertise(channels::kPoseCorrection)),
       opening_(context.node().Advertise(channels::kOpening)) {
   if (!estop_memory_.why_latched().empty()) drive_.PressEstop();
 }
@@ -98,9 +94,7 @@ void RobotApp::Tick(Time now) {
   TakeSonars(now);
   TakeFloorLines(now);
   TakeSeenThings();
-  TakeFixes(now);
-  AnswerFixes(now);
-  TakePoseResets(now);
+  corrector_.Tick(localiser_, drive_, now);
   TakeSignsOfLife(now);
   TakeLeaseRequests(now);
   TakePlanWalls();
@@ -120,7 +114,7 @@ void RobotApp::Yield(Time now) {
 void RobotApp::TakeWheels(Time now) {
   bool moved = false;
   for (const wheel_state_t& message : wheels_.Drain()) {
-    if (bool(message.contested) != contested_) ReportContest(message);
+    reporter_.Report(message);
     if (!localiser_.AddWheels(FromMessage(message), now)) continue;
     wheels_heard_ = now;
     drive_.touch_watch().AddMotion(*localiser_.odometry().time(), localiser_.odometry().twist());
@@ -155,7 +149,6 @@ void RobotApp::TakeSonars(Time now) {
   }
 }
 
-/// Adds each line at the pose that the base had when its picture was taken.
 /// Repeated, because on the radio it is a state: it gets there after a blackout, too.
 void RobotApp::SendOpening(Time now) {
   if (!passed_ || now - passed_->time > kOpeningRepeated || !opening_rate_.Due(now)) return;
@@ -163,6 +156,7 @@ void RobotApp::SendOpening(Time now) {
   opening_.Publish(ToMessage(*passed_));
 }
 
+/// Adds each line at the pose that the base had when its picture was taken.
 void RobotApp::TakeFloorLines(Time now) {
   for (const obstacle_line_t& message : floor_lines_.Drain()) {
     const auto line = FromMessage(message);
@@ -186,68 +180,6 @@ void RobotApp::TakeSeenThings() {
     if (thing && estimate)
       drive_.AddSeenThing(*thing, localiser_.odometry().pose() * estimate->pose.Inverse());
   }
-}
-
-void RobotApp::TakeFixes(Time now) {
-  for (const landmark_fix_t& message : fixes_.Drain()) {
-    if (const auto fix = FromMessage(message)) {
-      localiser_.AddFix(*fix, now);
-    } else {
-      correction_.Publish(NotFound(message, now));
-    }
-  }
-}
-
-void RobotApp::AnswerFixes(Time now) {
-  for (const Localiser::Answer& answer : localiser_.Step(now)) {
-    const FixResult& result = answer.result;
-    if (result.verdict == FixVerdict::kApplied) {
-      context_.Log(bus::Level::kInfo,
-                   fmt::format("fix {}: corrected by {:.3f} m, {:.2f} deg; distance {:.1f}",
-                               answer.fix.request_id, std::hypot(result.change.x, result.change.y),
-                               Degrees(result.change.yaw), result.distance));
-    } else {
-      context_.LogRefusal(channels::kLandmarkFix.name,
-                          fmt::format("fix {} refused: {}", answer.fix.request_id, result.reason));
-    }
-    // A repeated message has had its answer.
-    if (result.verdict != FixVerdict::kDouble) correction_.Publish(ToMessage(answer, now));
-  }
-}
-
-/// An order is repeated until its answer has got through; it is obeyed once.
-void RobotApp::TakePoseResets(Time now) {
-  for (const pose_reset_t& order : pose_resets_.Drain()) {
-    if (!placed_ || placed_->request_id != order.request_id) {
-      Pose2 change;
-      const int verdict = SetPose(order, now, change);
-      placed_ = AnswerTo(order, verdict, change, now);
-    }
-    correction_.Publish(*placed_);
-  }
-}
-
-/// Obeys an order to set the pose. Returns its verdict, as in pose_correction_t, and the change of the pose.
-int RobotApp::SetPose(const pose_reset_t& order, Time now, Pose2& change) {
-  const auto refuse = [&](int verdict, std::string_view why) {
-    context_.LogRefusal(channels::kPoseReset.name, fmt::format("pose {} not set: {}", order.request_id, why));
-    return verdict;
-  };
-  const auto known = FromMessage(order);
-  if (!known) return refuse(pose_correction_t::IMPLAUSIBLE, "numbers out of range");
-  if (IsOlder(order.utime, config_.path_max_age_s, now))
-    return refuse(pose_correction_t::TOO_OLD, "the order is too old");
-  const Twist2 twist = localiser_.odometry().twist();
-  const bool moves = std::hypot(twist.vx, twist.vy) > kStands_m_s || std::abs(twist.wz) > kStands_rad_s;
-  if (moves || !drive_.ForgetDrivenPath())
-    return refuse(pose_correction_t::MOVING,
-                  "the base drives; next: abort the mission or let go, and set it again");
-  change = localiser_.Reset(*known);
-  context_.Log(bus::Level::kInfo,
-               fmt::format("pose {} set by order: ({:.2f}, {:.2f}), {:.0f} deg, known to {:.2f} m",
-                           order.request_id, known->map_from_base.x, known->map_from_base.y,
-                           Degrees(known->map_from_base.yaw), known->sigma_m));
-  return pose_correction_t::RESET;
 }
 
 bool RobotApp::IsOlder(std::int64_t utime, double most_s, Time now) const {
@@ -340,7 +272,7 @@ void RobotApp::Drive(Time now) {
   commands_wheels_ = speeds.has_value();
   if (speeds) wheel_command_.Publish(ToMessage(*speeds, context_.claimant(), now));
   if (estimate) pose_.Publish(ToMessage(*estimate));
-  Report(drive_.state());
+  reporter_.Report(drive_.state());
 }
 
 void RobotApp::SendStatus(Time now) {
@@ -351,16 +283,6 @@ void RobotApp::SendStatus(Time now) {
   status_.Publish(ToMessage(drive_.state(), speed_m_s, now));
 }
 
-void RobotApp::ReportContest(const wheel_state_t& message) {
-  contested_ = message.contested;
-  context_.Log(bus::Level::kWarning,
-               contested_
-                   ? fmt::format("the drive board holds the wheels: another process commands them, too; "
-                                 "{} of its commands were not obeyed",
-                                 message.foreign_commands)
-                   : "the wheels are commanded by one process again");
-}
-
 /// The wheels turned on while the base was held: as far as they went before it was noticed.
 void RobotApp::ReportTouch(Time now) {
   const auto& touch = drive_.state().touch;
@@ -368,33 +290,7 @@ void RobotApp::ReportTouch(Time now) {
   const Twist2 twist = localiser_.odometry().twist();
   localiser_.AddSlip(kLeastSlip_m + std::hypot(twist.vx, twist.vy) * kTouchNoticed_s,
                      kLeastSlip_rad + std::abs(twist.wz) * kTouchNoticed_s);
-  context_.Log(bus::Level::kWarning,
-               fmt::format("{} at {}{}",
-                           touch->came ? "somebody touched the standing base" : "the base touched something",
-                           SegmentsText(touch->segments),
-                           touch->push_n > 0 ? fmt::format(", {:.0f} N", touch->push_n) : ""));
-}
-
-void RobotApp::Report(const DriveState& state) {
-  if (state.holder != reported_holder_) {
-    reported_holder_ = state.holder;
-    context_.Log(
-        bus::Level::kInfo,
-        fmt::format("the lease is {}", state.holder.driver == Driver::kNobody
-                                           ? "free"
-                                           : fmt::format("held by {}, session {}", Text(state.holder.driver),
-                                                         state.holder.session)));
-  }
-  const auto cause = state.failsafe.cause;
-  if (cause == reported_cause_) return;
-  reported_cause_ = cause;
-  if (!cause) {
-    context_.SetHealth(bus::Health::kOk);
-    context_.Log(bus::Level::kInfo, "nothing stops the base any more");
-    return;
-  }
-  context_.SetHealth(bus::Health::kDegraded, Text(*cause));
-  context_.Log(bus::Level::kWarning, fmt::format("the base is stopped: {}", Text(*cause)));
+  reporter_.Report(*touch);
 }
 
 }  // namespace priamos::robot

@@ -8,8 +8,10 @@
 #include "common/rate_limit.hpp"
 #include "lcmtypes/channels.hpp"
 #include "robot/core/safety/link_watch.hpp"
+#include "robot/drive_reporter.hpp"
 #include "robot/estop_memory.hpp"
 #include "robot/feature_reporter.hpp"
+#include "robot/pose_corrector.hpp"
 #include "robot/robot_config.hpp"
 #include "robot/robot_messages.hpp"
 
@@ -43,9 +45,6 @@ class RobotApp {
   void TakeSonars(Time now);
   void TakeFloorLines(Time now);
   void TakeSeenThings();
-  void TakeFixes(Time now);
-  void TakePoseResets(Time now);
-  int SetPose(const pose_reset_t& order, Time now, Pose2& change);
   void TakePaths(Time now);
   void TakePlanWalls();
   void Begin(Time now);
@@ -56,26 +55,24 @@ class RobotApp {
   void TakeCommands(Time now);
   void TakeSignsOfLife(Time now);
   bool IsOlder(std::int64_t utime, double most_s, Time now) const;
-  void AnswerFixes(Time now);
   void Drive(Time now);
   void SendStatus(Time now);
   void SendOpening(Time now);
-  void Report(const DriveState& state);
   void ReportTouch(Time now);
-  void ReportContest(const wheel_state_t& message);
 
   RobotConfig config_;
   bus::Context& context_;
   EstopMemory estop_memory_;
-  bool running_ = false, commands_wheels_ = false, contested_ = false;
+  bool running_ = false, commands_wheels_ = false;
   LinkWatch link_watch_;
   RateLimit status_rate_, opening_rate_;
   Localiser localiser_;
   DriveController drive_;
   OpeningWatch opening_watch_;
   FeatureReporter features_;
-  std::optional<Opening> passed_;            ///< newest
-  std::optional<pose_correction_t> placed_;  ///< the answer to the newest order to set the pose
+  PoseCorrector corrector_;
+  DriveReporter reporter_;
+  std::optional<Opening> passed_;  ///< newest
 
   bus::Inbox<wheel_state_t> wheels_;
   bus::Inbox<motor_current_t> currents_;
@@ -85,8 +82,6 @@ class RobotApp {
   bus::Inbox<scene_object_t> things_;
   bus::Inbox<path_t> paths_;
   bus::Inbox<plan_walls_t> plan_walls_;
-  bus::Inbox<landmark_fix_t> fixes_;
-  bus::Inbox<pose_reset_t> pose_resets_;
   bus::Inbox<drive_command_t> commands_;
   bus::Inbox<lease_request_t> lease_requests_;
   bus::Inbox<estop_t> estops_;
@@ -96,13 +91,10 @@ class RobotApp {
   bus::Publisher<odometry_t> odometry_;
   bus::Publisher<pose_t> pose_;
   bus::Publisher<drive_status_t> status_;
-  bus::Publisher<pose_correction_t> correction_;
   bus::Publisher<opening_t> opening_;
 
   std::optional<Time> wheels_heard_, head_heard_;
-  LeaseHolder reported_holder_;
   int floor_lines_refused_ = 0;
-  std::optional<Condition> reported_cause_;
 };
 
 }  // namespace priamos::robot
