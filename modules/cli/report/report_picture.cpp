@@ -73,7 +73,7 @@ void DrawAxes(Drawing& page, const MapView& view, const Extent& extent, double p
 /// The whole plan, from `top`; returns where the next thing begins.
 double DrawOverview(Drawing& page, double top, const RunRecord& record, const RunInfo& info,
                     const Scene& scene) {
-  const Extent extent = ExtentOf(scene.plan);
+  const Extent extent = ExtentOfRun(scene.plan, scene.things, record);
   const double room = kInner - kAxisWidth;
   const double scale = std::min(room / extent.size().x(), kTallestPlan / extent.size().y());
   const Box window{kMargin + kAxisWidth + (room - scale * extent.size().x()) / 2, top,

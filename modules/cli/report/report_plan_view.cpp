@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "cli/report/report_timeline.hpp"
@@ -11,17 +12,30 @@
 namespace priamos::cli {
 
 using drawing::Font;
-using Eigen::Vector2d;
+using Eigen::AlignedBox2d, Eigen::Vector2d;
 
 namespace {
 
 /// The belief moves at most 2 cm between two estimates; what is more is a fix.
 constexpr double kJump_m = 0.02;
 constexpr double kArrowHead_px = 16;
+/// A path so far from the walls is one of a world that has gone wrong, and floor is shown so far around it.
+constexpr double kBuilding_m = 100, kAroundPath_m = 1;
 
 std::vector<Vector2d> Outline(const Rectangle& rectangle) {
   const auto corners = rectangle.Corners();
   return {corners.begin(), corners.end()};
+}
+
+AlignedBox2d BoxOf(const GroundPlan& plan) {
+  AlignedBox2d box;
+  for (const Rectangle& wall : WallShapes(plan))
+    for (const Vector2d& corner : wall.Corners()) box.extend(corner);
+  return box;
+}
+
+Extent ToExtent(const AlignedBox2d& box) {
+  return box.isEmpty() ? Extent{} : Extent{box.min(), box.max()};
 }
 
 Rectangle ShapeOf(const CupboardPlan& cupboard) {
@@ -47,15 +61,21 @@ Eigen::Matrix2d CovarianceOf(const pose_t& pose) {
 }
 
 Extent ExtentOf(const GroundPlan& plan) {
-  if (plan.walls.empty()) return {};
-  Extent extent{plan.walls[0].from(), plan.walls[0].from()};
-  for (const Rectangle& wall : WallShapes(plan)) {
-    for (const Vector2d& corner : wall.Corners()) {
-      extent.low = extent.low.cwiseMin(corner);
-      extent.high = extent.high.cwiseMax(corner);
-    }
+  return ToExtent(BoxOf(plan));
+}
+
+Extent ExtentOfRun(const GroundPlan& plan, const std::vector<TrueThing>& things, const RunRecord& record) {
+  AlignedBox2d box = BoxOf(plan);
+  if (box.isEmpty())
+    for (const TrueThing& thing : things)
+      for (const Vector2d& corner : thing.outline) box.extend(corner);
+  if (box.isEmpty()) return {};
+  const AlignedBox2d near(box.min().array() - kBuilding_m, box.max().array() + kBuilding_m);
+  for (const world_truth_t& truth : record.truth) {
+    const Vector2d at = PositionOf(truth);
+    if (near.contains(at)) box.extend(AlignedBox2d(at.array() - kAroundPath_m, at.array() + kAroundPath_m));
   }
-  return extent;
+  return ToExtent(box);
 }
 
 void DrawFloor(MapView& view, const Extent& extent) {
@@ -84,10 +104,12 @@ void DrawPlan(MapView& view, const GroundPlan& plan, bool names) {
 
 void DrawThings(MapView& view, const std::vector<TrueThing>& things, bool names) {
   constexpr double kNamed_m = 0.2;
+  constexpr std::size_t kMostNames = 60;  // more hide the floor: the cells of a grid
   for (const TrueThing& thing : things) {
     view.Area(layers::kThing, thing.outline);
     const double diagonal_m = (thing.outline.at(2) - thing.outline.at(0)).norm();
-    if (names && diagonal_m > kNamed_m) view.Name(thing.outline, thing.name, kSmallFont, colours::kThing);
+    if (names && diagonal_m > kNamed_m && things.size() <= kMostNames)
+      view.Name(thing.outline, thing.name, kSmallFont, colours::kThing);
   }
 }
 

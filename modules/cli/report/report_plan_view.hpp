@@ -68,13 +68,17 @@ inline constexpr Layer kContact{"contact", "contact", {.line = colours::kBad, .w
 /// Text that is still read when the picture is as wide as a telephone: a third of 1200 px.
 inline constexpr drawing::Font kBodyFont{30}, kBoldFont{30, true}, kSmallFont{25};
 
-/// The part of the map that a plan covers.
+/// A part of the map.
 struct Extent {
   Eigen::Vector2d low{0, 0}, high{10, 5};
   Eigen::Vector2d centre() const { return (low + high) / 2; }
   Eigen::Vector2d size() const { return high - low; }
 };
+/// What the walls of a plan reach over; an example where it has none.
 Extent ExtentOf(const GroundPlan& plan);
+/// What a picture of a run shows: the walls of the plan, or where it has none all true solids, and the true
+/// path with some floor around it, as far as it leads to within a building's size of them.
+Extent ExtentOfRun(const GroundPlan& plan, const std::vector<TrueThing>& things, const RunRecord& record);
 
 Eigen::Vector2d PositionOf(const pose_t& pose);
 Eigen::Vector2d PositionOf(const world_truth_t& truth);

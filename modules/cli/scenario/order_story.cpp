@@ -1,5 +1,7 @@
 #include "cli/scenario/order_story.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <utility>
 
@@ -43,6 +45,11 @@ void OrderStory::End(Time now, bool succeeded, std::string text) {
 bool OrderStory::Done(Time now) const {
   if (ended_) return now - *ended_ >= kAftermath;
   return start_ && Seconds(now - *start_) >= scenario_.time_limit_s;
+}
+
+std::string OrderStory::Reason() const {
+  if (ended_ || !order_) return text_;
+  return fmt::format("time limit of {:.0f} s reached while: {}", scenario_.time_limit_s, text_);
 }
 
 std::optional<double> OrderStory::DistanceFrom(const ScenarioWaypoint& waypoint) const {

@@ -22,7 +22,7 @@ class OrderStory : public ScenarioStory {
   bool Started() const override { return order_.has_value(); }
   bool Succeeded() const override { return succeeded_; }
   bool DecidesTheRun() const override { return true; }
-  std::string Reason() const override { return text_; }
+  std::string Reason() const override;
 
  protected:
   /// The stage's `progress` gets one line per order and per change of the mission.

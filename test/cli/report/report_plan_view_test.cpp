@@ -22,6 +22,20 @@ TEST(ReportPlanView, PlanWithoutWallsHasAnExtent) {
   EXPECT_GT(ExtentOf(GroundPlan{}).size().minCoeff(), 0);
 }
 
+TEST(ReportPlanView, WithoutAPlanTheTrueSolidsAreShownAndThePathAround) {
+  const TrueThing wall{"grid 1", {{20, 10}, {30, 10}, {30, 10.1}, {20, 10.1}}};
+  RunRecord record;
+  for (const double x_m : {25.0, 32.0, 1e9}) {
+    world_truth_t truth{};
+    truth.x_m = x_m;
+    truth.y_m = 8;
+    record.truth.push_back(truth);
+  }
+  const Extent dut = ExtentOfRun({}, {wall}, record);
+  EXPECT_NEAR((dut.low - Eigen::Vector2d(20, 7)).norm(), 0, 1e-9);
+  EXPECT_NEAR((dut.high - Eigen::Vector2d(33, 10.1)).norm(), 0, 1e-9);
+}
+
 TEST(ReportPlanView, FootprintIsTurnedWithTheBase) {
   const auto dut = FootprintOutline({1, 2, kPi / 2}, {0.95, 0.78});
   EXPECT_NEAR((dut[0] - Eigen::Vector2d(1 - 0.39, 2 + 0.475)).norm(), 0, 1e-9);
