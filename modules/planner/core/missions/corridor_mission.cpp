@@ -42,6 +42,8 @@ void CorridorMissionConfig::Describe(Archive& a) {
   a.Number("leeway_m", leeway_m, {"m", 0, 3.1, "how far its middle may be left around things"});
   a.Number("parallel_deg", parallel_deg, {"deg", 0, 45, "a wall of the plan less askew gives the direction"});
   a.Number("end_m", end_m, {"m", 0.5, 50, "ending so much earlier than on the plan it is closed"});
+  a.Number("open_m", open_m, {"m", 2, 50, "its end is where no wall is beside the robot for so long"});
+  a.Number("beside_m", beside_m, {"m", 0.5, 10, "what is farther from its middle is no wall of the corridor"});
   a.Number("patience_s", patience_s, {"s", 0, 600, "so long the way may be closed before its end"});
   a.Number("back_off_m", back_off_m, {"m", 0, 2, "so far the robot goes back to hear anew what closes it"});
   a.Number("back_off_m_s", back_off_m_s, {"m/s", 0.02, 0.5, "speed of that"});
@@ -68,6 +70,9 @@ void CorridorMission::Step(MissionControl& control) {
   }
   keeper_.Step(control);
   driven_m_ = Driven_m(control);
+  if (IsBesideWall(control)) beside_m_ = driven_m_;
+  if (order_.distance_m == 0 && driven_m_ - beside_m_.value_or(0) > config_.open_m)
+    return EndInTheOpen(control);
   const bool is_new = heard.pose->stamp > *control.path_sent();
   if (!is_new || !control.OnPath() || heard.drive->mode != DriveMode::kArrived) return;
   if (backs_off_) return Follow(control, length_m_ - driven_m_);
@@ -99,6 +104,7 @@ void CorridorMission::Depart(MissionControl& control) {
   control.SendFaces(FacesAlong(faces_, {base.translation(), base.translation() + planned_m * ahead}));
   course_ = course;
   driven_m_ = 0;
+  beside_m_.reset();
   closed_.reset();
   Follow(control, length_m_);
   control.Enter(Phase::kDriving, to_the_end ? "following the corridor to its end"
@@ -156,10 +162,36 @@ void CorridorMission::Close(MissionControl& control, const Stop& stop) {
     return control.Fail(
         fmt::format("the corridor is closed after {:.1f} m, on the plan it ends after {:.1f} m: {}",
                     driven_m_, *end_m_, stop.reason));
-  control.OrderPath({}, 0);  // what is left of the path is not to be driven later
-  control.Enter(Phase::kDone,
-                fmt::format("at the end of the corridor after {:.1f} m in {:.0f} s{}", driven_m_,
-                            Seconds(control.now() - control.started()), DoorsOnTheWay(control)));
+  End(control, "at the end of the corridor");
+}
+
+/// Whether a wall that is known, of the plan or learned, goes along beside the robot.
+bool CorridorMission::IsBesideWall(const MissionControl& control) const {
+  const Pose2& base = control.heard().pose->map_from_base;
+  const auto is_beside = [&](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+    const Eigen::Vector2d along = to - from;
+    const double askew = std::remainder(std::atan2(along.y(), along.x()) - course_.yaw, kPi);
+    return std::abs(askew) < Radians(config_.parallel_deg) &&
+           DistanceToSegment(from, to, base.translation()) < config_.beside_m;
+  };
+  const auto& learned = control.heard().learned;
+  return std::ranges::any_of(faces_, [&](const WallFace& f) { return is_beside(f.from, f.to); }) ||
+         (learned && std::ranges::any_of(learned->walls, [&](const LearnedWall& wall) {
+            return is_beside(wall.from(), wall.to());
+          }));
+}
+
+void CorridorMission::EndInTheOpen(MissionControl& control) {
+  if (beside_m_) return End(control, "where the corridor opens");
+  control.OrderPath({}, 0);
+  control.Fail(fmt::format("no corridor: no wall was found beside the robot in {:.1f} m", driven_m_));
+}
+
+/// Followed to its end. What is left of the path is not to be driven later.
+void CorridorMission::End(MissionControl& control, std::string_view where) {
+  control.OrderPath({}, 0);
+  control.Enter(Phase::kDone, fmt::format("{} after {:.1f} m in {:.0f} s{}", where, driven_m_,
+                                          Seconds(control.now() - control.started()), DoorsOnTheWay(control)));
 }
 
 }  // namespace priamos::planner

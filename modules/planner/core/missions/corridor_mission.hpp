@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "common/archive.hpp"
@@ -18,6 +19,8 @@ struct CorridorMissionConfig {
   double leeway_m = 1.5;     ///< how far the middle may be left around things, if the walls leave room
   double parallel_deg = 25;  ///< a wall of the plan that is less askew gives the direction
   double end_m = 2;          ///< a corridor that ends so much before its end on the plan is closed there
+  double open_m = 6;  ///< followed to its end, it ends where no wall was beside the robot for so long ...
+  double beside_m = 3;    ///< ... nor nearer than this
   double patience_s = 60;   ///< so long the way may be closed, by a person above all, where it should lead on
   double back_off_m = 0.5;  ///< so far the robot goes back meanwhile, to hear anew what closes the way
   double back_off_m_s = 0.1;
@@ -29,8 +32,8 @@ struct CorridorMissionConfig {
 
 /// The mission "follow this corridor": one order to the robot, which keeps to the middle between the walls
 /// that it hears. It needs no plan; where there is one, the robot is told the walls along the way. It ends
-/// at the distance that was ordered, or where nothing leaves room for the base any more. Where it should lead
-/// on, the robot waits, backs off and comes again before the corridor counts as closed: who stands there may
+/// at the distance that was ordered, or where nothing leaves room for the base any more, or where it opens
+/// into a hall. Where it should lead on, the robot waits, backs off and comes again before the corridor counts as closed: who stands there may
 /// leave, and what was heard from one place only may be smaller. Looks at doors of the plan keep the pose
 /// known, as on any drive: walls tell nothing of how far along them the robot has come.
 class CorridorMission : public Mission {
@@ -52,6 +55,9 @@ class CorridorMission : public Mission {
   void BackOff(MissionControl& control);
   bool MayLeadOn() const;
   void Close(MissionControl& control, const Stop& stop);
+  bool IsBesideWall(const MissionControl& control) const;
+  void EndInTheOpen(MissionControl& control);
+  void End(MissionControl& control, std::string_view where);
   double CourseFrom(const Pose2& base) const;
   double Driven_m(const MissionControl& control) const;
 
@@ -63,7 +69,8 @@ class CorridorMission : public Mission {
   Pose2 course_;            ///< where the corridor was entered, and in which direction
   double length_m_ = 0;     ///< of the whole way that is to be followed
   double driven_m_ = 0;     ///< as reported last
-  bool backs_off_ = false;  ///< the path ordered last leads back
+  std::optional<double> beside_m_;  ///< driven when a wall was beside the robot last
+  bool backs_off_ = false;          ///< the path ordered last leads back
   /// Where the way was found closed, and since when.
   struct Closed {
     double at_m = 0;

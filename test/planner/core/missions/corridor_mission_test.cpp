@@ -106,6 +106,38 @@ TEST(CorridorMissionTest, WhereNothingLeavesRoomIsTheEnd) {
   EXPECT_THAT(s.robot.paths.back().points, SizeIs(0)) << "what is left is not to be driven later";
 }
 
+TEST(CorridorMissionTest, WhereItsWallsEndIsTheEnd) {
+  GroundPlan hall;
+  hall.walls = {Wall(0, -1.07, 12, -1.07), Wall(0, 1.07, 10, 1.07), Wall(40, -20, 40, 20)};
+  Story s(hall);
+  s.Start(0);
+  s.robot.RunFor(200);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDone) << s.dut.state().text;
+  EXPECT_THAT(s.dut.state().text, StartsWith("where the corridor opens after "));
+  const CorridorMissionConfig config;
+  EXPECT_NEAR(s.robot.truth().x, 12 + std::sqrt(9 - 1.07 * 1.07) + config.open_m, 0.5);
+}
+
+TEST(CorridorMissionTest, AJunctionIsNoEnd) {
+  GroundPlan junction;
+  for (const double side : {-1.07, 1.07}) {
+    junction.walls.push_back(Wall(0, side, 8, side));
+    junction.walls.push_back(Wall(14, side, 25, side));
+  }
+  Story s(junction);
+  s.Start(0);
+  s.robot.RunUntilX(22, 200);
+  EXPECT_EQ(s.dut.state().phase, Phase::kDriving) << s.dut.state().text;
+}
+
+TEST(CorridorMissionTest, WhereNoWallIsNoCorridorIs) {
+  Story s(GroundPlan{});
+  s.Start(0);
+  s.robot.RunFor(60);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  EXPECT_THAT(s.dut.state().text, StartsWith("no corridor: no wall was found beside the robot in 6."));
+}
+
 TEST(CorridorMissionTest, ClosedBeforeItsEndOnThePlanItHasFailed) {
   Story s;
   s.Start(0);
