@@ -43,7 +43,8 @@ void CorridorMissionConfig::Describe(Archive& a) {
   a.Number("parallel_deg", parallel_deg, {"deg", 0, 45, "a wall of the plan less askew gives the direction"});
   a.Number("end_m", end_m, {"m", 0.5, 50, "ending so much earlier than on the plan it is closed"});
   a.Number("open_m", open_m, {"m", 2, 50, "its end is where no wall is beside the robot for so long"});
-  a.Number("beside_m", beside_m, {"m", 0.5, 10, "what is farther from its middle is no wall of the corridor"});
+  a.Number("beside_m", beside_m,
+           {"m", 0.5, 10, "what is farther from its middle is no wall of the corridor"});
   a.Number("patience_s", patience_s, {"s", 0, 600, "so long the way may be closed before its end"});
   a.Number("back_off_m", back_off_m, {"m", 0, 2, "so far the robot goes back to hear anew what closes it"});
   a.Number("back_off_m_s", back_off_m_s, {"m/s", 0.02, 0.5, "speed of that"});
@@ -190,8 +191,9 @@ void CorridorMission::EndInTheOpen(MissionControl& control) {
 /// Followed to its end. What is left of the path is not to be driven later.
 void CorridorMission::End(MissionControl& control, std::string_view where) {
   control.OrderPath({}, 0);
-  control.Enter(Phase::kDone, fmt::format("{} after {:.1f} m in {:.0f} s{}", where, driven_m_,
-                                          Seconds(control.now() - control.started()), DoorsOnTheWay(control)));
+  control.Enter(Phase::kDone,
+                fmt::format("{} after {:.1f} m in {:.0f} s{}", where, driven_m_,
+                            Seconds(control.now() - control.started()), DoorsOnTheWay(control)));
 }
 
 }  // namespace priamos::planner

@@ -64,6 +64,10 @@ Lighting::Lighting(const SceneConfig& config, const std::vector<Solid>& solids) 
                       static_cast<int>(i),
                       IsMirror(s.material)});
   }
+  std::vector<PlanIndex::Disc> discs;
+  discs.reserve(boxes_.size());
+  for (const Box& box : boxes_) discs.push_back({box.centre.head<2>(), box.half.norm()});
+  index_ = PlanIndex(discs);
   const double step = config.lamp_spacing_m;
   for (double x = config.x_min_m + step / 2; x < config.x_max_m; x += step) {
     for (double y = config.y_min_m + step / 2; y < config.y_max_m; y += step) {
@@ -98,8 +102,10 @@ double Lighting::Hit(const Boxes& boxes, const Vector3d& origin, const Vector3d&
 
 Lighting::Boxes Lighting::Within(const Vector3d& point, double reach_m) const {
   Boxes near;
-  for (const Box& box : boxes_)
+  index_.VisitNear(point.head<2>(), reach_m, [&](std::size_t i) {
+    const Box& box = boxes_[i];
     if ((box.centre - point).norm() - box.half.norm() <= reach_m) near.push_back(&box);
+  });
   return near;
 }
 

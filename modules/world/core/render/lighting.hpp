@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "world/core/render/plan_index.hpp"
 #include "world/core/scene/scene.hpp"
 #include "world/core/scene/solid.hpp"
 
@@ -58,6 +59,7 @@ class Lighting {
 
   SceneConfig config_;
   std::vector<Box> boxes_;
+  PlanIndex index_;  ///< of boxes_
   std::vector<Eigen::Vector3d> lamps_;
   Eigen::Vector3d window_;
 };
