@@ -230,7 +230,7 @@ std::string_view DriveLimitText(int limit) {
     case drive_status_t::LIMIT_SONAR:
       return "an echo is too near";
     case drive_status_t::LIMIT_POSE_STALE:
-      return "the pose is stale";
+      return "the pose is too uncertain or too old";
     case drive_status_t::LIMIT_WHEELS_SILENT:
       return "the wheels do not answer";
     case drive_status_t::LIMIT_SONAR_SILENT:

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -61,14 +62,21 @@ std::optional<pose_correction_t> Ask(const PlaceOptions& options) {
   return answer;
 }
 
+/// How far the pose was moved; the answer holds no more than 5 m along either axis.
+std::string MovedBy(const pose_correction_t& answer) {
+  constexpr double kMost_m = 5;
+  const bool cut = std::max(std::abs(answer.dx_m), std::abs(answer.dy_m)) >= kMost_m;
+  return cut ? fmt::format("more than {:.0f} m", kMost_m)
+             : fmt::format("{:.2f} m", std::hypot(answer.dx_m, answer.dy_m));
+}
+
 int Run(const PlaceOptions& options) {
   const auto answer = Ask(options);
   const bool set = answer && answer->verdict == pose_correction_t::RESET;
-  const std::string outcome =
-      !answer ? "no answer from the robot; next: priamos link top"
-      : set   ? fmt::format("the pose is set, {:.2f} m and {:.1f} degrees from where it was",
-                            std::hypot(answer->dx_m, answer->dy_m), Degrees(answer->dyaw_rad))
-              : std::string(planner::CorrectionVerdictText(answer->verdict));
+  const std::string outcome = !answer ? "no answer from the robot; next: priamos link top"
+                              : set ? fmt::format("the pose is set, {} and {:.1f} degrees from where it was",
+                                                  MovedBy(*answer), Degrees(answer->dyaw_rad))
+                                    : std::string(planner::CorrectionVerdictText(answer->verdict));
   if (options.json) std::cout << JsonLine({{"set", set}, {"text", outcome}}) << "\n";
   if (set && !options.json) std::cout << outcome << "\n";
   if (!set) std::cerr << "priamos place: the pose is not set: " << outcome << "\n";

@@ -171,8 +171,12 @@ void GotoMission::OnStop(MissionControl& control, const Stop& stop) {
   if (!blocked) return control.Fail(stop.reason + "; next: look what it is, and order it again");
   if (++departures_ > config_.retries)
     return GiveUp(control, stop.reason + "; next: look what it is, and order it again");
-  // What was taken for larger than it is may have closed the only way.
-  if (const auto thing = ThingAhead(control, footprint_, config_.thing_m / (1 + waits_)))
+  // A base that came no further and hears nothing has met nothing that could be put on the map. And what was
+  // taken for larger than it is may have closed the only way.
+  const DriveReport& drive = *control.heard().drive;
+  const bool met = drive.mode == DriveMode::kBlocked || drive.nearest;
+  if (const auto thing =
+          !met ? std::nullopt : ThingAhead(control, footprint_, config_.thing_m / (1 + waits_)))
     planner_.Add("what stopped the robot", *thing);
   Depart(control, stop.reason);
 }

@@ -84,8 +84,24 @@ double StandWatch::Stands_s(const MissionControl& control) {
   return stood_s_;
 }
 
+void ProgressWatch::SayWhatHolds(MissionControl& control, double held_s) {
+  constexpr double kSaidAfter_s = 3;
+  if ((held_s > kSaidAfter_s) == said_.has_value()) return;
+  const std::string text = control.state().text;
+  if (!said_) {
+    said_ = Said{text, fmt::format("{}; the robot holds: {}", text, control.heard().drive->limit)};
+    control.Enter(control.state().phase, said_->now);
+    return;
+  }
+  // The mission may have said something else meanwhile.
+  if (text == said_->now) control.Enter(control.state().phase, said_->before);
+  said_.reset();
+}
+
 std::optional<Stop> ProgressWatch::Step(MissionControl& control, double held_s, double idle_s) {
-  if (holds_.Stands_s(control) > held_s) {
+  const double stands_s = holds_.Stands_s(control);
+  SayWhatHolds(control, stands_s);
+  if (stands_s > held_s) {
     control.Fail(
         fmt::format("the robot has held on its way for {:.0f} s: {}; next: see where it is, priamos place",
                     held_s, control.heard().drive->limit));

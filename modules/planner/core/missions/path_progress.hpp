@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "planner/core/missions/mission_control.hpp"
@@ -50,12 +51,20 @@ class ProgressWatch {
   void Reset() { *this = {}; }
   /// Forgets for how long nothing has held it.
   void ResetIdle() { idles_.Reset(); }
-  /// One time step of a robot on its path. One that has been held for `held_s` has the mission fail; one that
-  /// has come no further for `idle_s` though nothing holds it is blocked, which is returned.
+  /// One time step of a robot on its path. What holds it is said after some seconds; one that has been held
+  /// for `held_s` has the mission fail; one that has come no further for `idle_s` though nothing holds it is
+  /// blocked, which is returned.
   std::optional<Stop> Step(MissionControl& control, double held_s, double idle_s);
 
  private:
+  void SayWhatHolds(MissionControl& control, double held_s);
+
   StandWatch holds_, idles_{StandWatch::Counts::kFree};
+  /// What the mission says while something holds the robot, and said before.
+  struct Said {
+    std::string before, now;
+  };
+  std::optional<Said> said_;
 };
 
 }  // namespace priamos::planner

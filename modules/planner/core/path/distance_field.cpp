@@ -1,9 +1,11 @@
 #include "planner/core/path/distance_field.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <queue>
 
 namespace priamos::planner {
@@ -12,6 +14,23 @@ namespace {
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 /// So much farther than the base needs in any heading an obstacle may still be a reason to keep off it.
 constexpr double kBeyondSurely_m = 1;
+/// A route begins at a place so near to its start; as far as SearchRoute looks for the first one.
+constexpr double kFirst_m = 1.5;
+
+/// From a cell to those beside it, in the order of columns and rows.
+struct Step {
+  int dx, dy;
+  double length_m;
+};
+constexpr double kAcross_m = DistanceField::kStep_m * std::numbers::sqrt2;
+constexpr std::array<Step, 8> kSteps{{{-1, -1, kAcross_m},
+                                      {-1, 0, DistanceField::kStep_m},
+                                      {-1, 1, kAcross_m},
+                                      {0, -1, DistanceField::kStep_m},
+                                      {0, 1, DistanceField::kStep_m},
+                                      {1, -1, kAcross_m},
+                                      {1, 0, DistanceField::kStep_m},
+                                      {1, 1, kAcross_m}}};
 
 }  // namespace
 
@@ -32,7 +51,9 @@ DistanceField::DistanceField(const SweptFootprint& space, const Eigen::Vector2d&
   Measure(space.obstacles(), surely_m_ + kBeyondSurely_m);
   const double closed_m = std::min(body.length_m, body.width_m) / 2 + margin_m;
   for (const PassageLane& lane : lanes) Open(lane, closed_m);
-  Spread(closed_m);
+  to_goal_m_.assign(clearance_m_.size(), kInfinite);
+  reaches_start_ = MayReach(start, closed_m);
+  if (reaches_start_) Spread(closed_m);
 }
 
 void DistanceField::Open(const PassageLane& lane, double closed_m) {
@@ -63,9 +84,30 @@ void DistanceField::Measure(const ObstacleMap& obstacles, double farthest_m) {
   }
 }
 
+/// Floods from around the start. A start in a building from which no way leads to a goal outside of it knows
+/// that after its rooms; the way from the goal would be looked for on all that is outside.
+bool DistanceField::MayReach(const Eigen::Vector2d& start, double closed_m) const {
+  std::vector<bool> known(clearance_m_.size(), false);
+  std::vector<std::size_t> open;
+  const auto add = [&](int x, int y) {
+    if (!Holds(x, y) || known[IndexOf(x, y)]) return;
+    known[IndexOf(x, y)] = true;
+    if (clearance_m_[IndexOf(x, y)] >= closed_m) open.push_back(IndexOf(x, y));
+  };
+  const Eigen::Vector2i from = CellOf(start);
+  const int first = static_cast<int>(std::ceil(kFirst_m / kStep_m));
+  for (int x = from.x() - first; x <= from.x() + first; ++x)
+    for (int y = from.y() - first; y <= from.y() + first; ++y) add(x, y);
+  while (!open.empty() && !known[IndexOf(0, 0)]) {
+    const auto [x, y] = CellAt(open.back());
+    open.pop_back();
+    for (const auto& [dx, dy, length_m] : kSteps) add(x + dx, y + dy);
+  }
+  return known[IndexOf(0, 0)];
+}
+
 /// Dijkstra from the goal; the goal itself counts as open.
 void DistanceField::Spread(double closed_m) {
-  to_goal_m_.assign(clearance_m_.size(), kInfinite);
   using Open = std::pair<float, std::size_t>;
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
   to_goal_m_[IndexOf(0, 0)] = 0;
@@ -75,15 +117,13 @@ void DistanceField::Spread(double closed_m) {
     open.pop();
     if (distance_m > to_goal_m_[index]) continue;
     const auto [x, y] = CellAt(index);
-    for (int dx = -1; dx <= 1; ++dx) {
-      for (int dy = -1; dy <= 1; ++dy) {
-        if (!Holds(x + dx, y + dy)) continue;
-        const std::size_t next = IndexOf(x + dx, y + dy);
-        const auto total = static_cast<float>(distance_m + kStep_m * std::hypot(dx, dy));
-        if (clearance_m_[next] < closed_m || total >= to_goal_m_[next]) continue;
-        to_goal_m_[next] = total;
-        open.push({total, next});
-      }
+    for (const auto& [dx, dy, length_m] : kSteps) {
+      if (!Holds(x + dx, y + dy)) continue;
+      const std::size_t next = IndexOf(x + dx, y + dy);
+      const auto total = static_cast<float>(distance_m + length_m);
+      if (clearance_m_[next] < closed_m || total >= to_goal_m_[next]) continue;
+      to_goal_m_[next] = total;
+      open.push({total, next});
     }
   }
 }

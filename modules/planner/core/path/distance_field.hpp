@@ -44,17 +44,22 @@ class DistanceField {
   double Clearance(int x, int y) const { return clearance_m_[IndexOf(x, y)]; }
   /// Distance to the goal from cell to cell that are not closed [m]; infinite where no way leads.
   double ToGoal(int x, int y) const { return to_goal_m_[IndexOf(x, y)]; }
+  /// Whether a way over cells that are not closed may lead from the start to the goal; without one ToGoal is
+  /// infinite everywhere.
+  bool ReachesStart() const { return reaches_start_; }
   /// Whether the footprint fits in whatever heading, and also on the step to the cell.
   bool SurelyFree(int x, int y) const { return Clearance(x, y) > surely_m_; }
 
  private:
   void Measure(const ObstacleMap& obstacles, double farthest_m);
   void Open(const PassageLane& lane, double closed_m);
+  bool MayReach(const Eigen::Vector2d& start, double closed_m) const;
   void Spread(double closed_m);
 
   Eigen::Vector2d goal_;
   int x_min_ = 0, y_min_ = 0, nx_ = 0, ny_ = 0;
   double surely_m_ = 0;
+  bool reaches_start_ = false;
   std::vector<float> clearance_m_, to_goal_m_;
 };
 

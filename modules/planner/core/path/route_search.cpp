@@ -45,13 +45,14 @@ class Search {
         lanes_(LanesThrough(query.passages, space, query.margin_m)),
         field_(space, query.start.translation(), query.goal.translation(), query.margin_m,
                query.beyond_plan_m, lanes_),
-        lattice_(field_.cells() * kHeadings),
-        cost_(lattice_ + 2 * lanes_.size(), std::numeric_limits<double>::infinity()),
-        expanded_(cost_.size(), false),
-        from_(cost_.size(), kNone),
-        distance_m_(lattice_, -1) {}
+        lattice_(field_.cells() * kHeadings) {}
 
   std::optional<std::vector<Pose2>> Run() {
+    if (!field_.ReachesStart()) return std::nullopt;
+    cost_.assign(lattice_ + 2 * lanes_.size(), std::numeric_limits<double>::infinity());
+    expanded_.assign(cost_.size(), false);
+    from_.assign(cost_.size(), kNone);
+    distance_m_.assign(lattice_, -1);
     BeginAtStart();
     int n_poses = 0;
     while (!open_.empty()) {

@@ -162,7 +162,8 @@ TEST(ExploreMissionTest, AHoldIsNotWaitedForForEver) {
   s.robot.lost = true;
   s.robot.RunFor(20);
   EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
-  EXPECT_THAT(s.dut.state().text, HasSubstr("has held on its way for 12 s: the pose is stale"));
+  EXPECT_THAT(s.dut.state().text,
+              HasSubstr("has held on its way for 12 s: the pose is too uncertain or too old"));
 }
 
 TEST(ExploreMissionTest, WhoStandsBeforeAnEchoIsBlocked) {

@@ -192,7 +192,7 @@ class FakeRobot {
                                        : DriveMode::kFollowing,
                       path_id_,
                       blocked   ? "sonar"
-                      : lost    ? "the pose is stale"
+                      : lost    ? "the pose is too uncertain or too old"
                       : by_echo ? "an echo is too near"
                                 : "",
                       false,

@@ -97,9 +97,24 @@ TEST(GotoMissionTest, ARobotThatHoldsForGoodEndsItWithTheReason) {
   s.robot.lost = true;
   s.robot.RunFor(20);
   EXPECT_EQ(s.dut.state().phase, Phase::kDriving) << "it may find itself again";
+  EXPECT_THAT(s.dut.state().text,
+              AllOf(StartsWith("driving to (5.00, 2.40)"), HasSubstr("; the robot holds: the pose")));
   s.robot.RunFor(20);
   EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
-  EXPECT_THAT(s.dut.state().text, StartsWith("the robot has held on its way for 30 s: the pose is stale"));
+  EXPECT_THAT(s.dut.state().text,
+              StartsWith("the robot has held on its way for 30 s: the pose is too uncertain or too old"));
+}
+
+TEST(GotoMissionTest, WhatHoldsTheRobotIsSaidAsLongAsItDoes) {
+  Story s;
+  s.Start({{5.0, 2.4, 0}});
+  s.robot.RunUntilX(2.0);
+  s.robot.lost = true;
+  s.robot.RunFor(5);
+  EXPECT_THAT(s.dut.state().text, HasSubstr("the robot holds"));
+  s.robot.lost = false;
+  s.robot.RunFor(2);
+  EXPECT_THAT(s.dut.state().text, testing::Not(HasSubstr("the robot holds")));
 }
 
 TEST(GotoMissionTest, AWallThatTurnsUpAcrossThePathIsDrivenAround) {

@@ -48,6 +48,8 @@ TEST(DistanceFieldTest, TheWayLeadsAroundObstacles) {
 TEST(DistanceFieldTest, NoWayIsInfinitelyFar) {
   GroundPlan plan = ShippedPlan();
   plan.walls.push_back({"screen", {2.5, 0}, {2.5, 4.8}, 0.1});
+  EXPECT_TRUE(FieldOf(ShippedPlan()).ReachesStart());
+  EXPECT_FALSE(FieldOf(plan).ReachesStart());
   EXPECT_TRUE(std::isinf(FieldOf(plan).ToGoal(-30, 0)));
   EXPECT_TRUE(std::isinf(FieldOf(ShippedPlan()).ToGoal(50, 0))) << "outside of the building";
 }
