@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "head/core/edges/median.hpp"
 
 namespace priamos::head {
 namespace {
@@ -23,8 +26,7 @@ double MedianShift(const std::vector<const ContourPiece*>& pieces) {
   std::vector<double> shifts;
   shifts.reserve(pieces.size());
   for (const ContourPiece* piece : pieces) shifts.push_back(piece->step.shift_px);
-  std::nth_element(shifts.begin(), shifts.begin() + shifts.size() / 2, shifts.end());
-  return shifts[shifts.size() / 2];
+  return Median(std::move(shifts));
 }
 
 /// The clear ones of the contrast sign that most have, near to their median.
