@@ -51,11 +51,11 @@ ContourEvidence EvidenceOf(const LandmarkModel& seen, const Eigen::Isometry3d& b
                            std::span<const CameraView> views, std::span<const StepMeter> meters) {
   ContourEvidence evidence;  // sums of lengths first
   for (std::size_t v = 0; v < views.size(); ++v) {
-    const ContourPieces contour(seen, base_from_model, views[v], meters[v]);
+    const ContourPieces contour(seen, base_from_model, views[v]);
     for (std::size_t i = 0; i < contour.edges().size(); ++i) {
       if (!contour.edges()[i] || contour.edges()[i]->length_px() < kShortestEdge_px) continue;
       EdgeLengths lengths;
-      for (const ContourPiece& piece : contour.Measure(i, 0)) lengths.Add(piece);
+      for (const ContourPiece& piece : contour.Measure(meters[v], i, 0)) lengths.Add(piece);
       if (lengths.all() > 0) Add(lengths, evidence);
     }
   }

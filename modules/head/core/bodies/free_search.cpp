@@ -91,7 +91,7 @@ bool FreeSearch::Refine(const Pass& pass, BodyState& state) {
   if (pass.guided) Guide(state);
   Look(pass.gate_px, state);
   if (static_cast<int>(state.association.matches.size()) < kFewest) return !pass.guided && !guides_.empty();
-  return pass.coarse ? Solve(1, true, state) : DropOutliers(state) && FindVariance(state);
+  return pass.coarse ? Solve(1, Fitted::kRoughly, state) : DropOutliers(state) && FindVariance(state);
 }
 
 void FreeSearch::Guide(BodyState& state) {
@@ -118,15 +118,15 @@ void FreeSearch::Look(double gate_px, BodyState& state) {
   state.association = Associate(state.seen, all, ViewsOf(state), state.base_from_model, association);
 }
 
-bool FreeSearch::Solve(double variance_scale, bool coarse, BodyState& state) const {
+bool FreeSearch::Solve(double variance_scale, Fitted fitted, BodyState& state) const {
   const auto observations =
-      Observations(state.seen, state.association, ViewsOf(state), state.base_from_model, coarse);
+      Observations(state.seen, state.association, ViewsOf(state), state.base_from_model, fitted == Fitted::kRoughly);
   PoseSolverOptions solver = options_.solver;
   const double factor = std::sqrt(variance_scale);
   solver.edge_sigma_px = factor * EdgeSigma();
   solver.model_sigma_m *= factor;
   solver.tilt_sigma_m *= factor;
-  solver.find_suspect = !coarse;
+  solver.find_suspect = fitted == Fitted::kWithSuspect;
   state.solution = SolvePose(state.seen, cameras_, observations, state.base_from_model, solver);
   state.variance_scale = variance_scale;
   if (state.solution.ok) state.base_from_model = state.solution.base_from_landmark;
@@ -141,7 +141,7 @@ bool FreeSearch::DropOutliers(BodyState& state) const {
   const int max_dropped = static_cast<int>(options_.max_outlier_share * n_matches());
   const int n_first = n_matches();
   for (int k = 0; k <= max_dropped && n_matches() >= kFewest; ++k) {
-    if (!Solve(1, false, tried)) break;
+    if (!Solve(1, Fitted::kWithSuspect, tried)) break;
     if (const double l = LogLikelihood(tried.solution, n_first - n_matches()); l > most_likely) {
       most_likely = l;
       state = tried;
@@ -168,7 +168,7 @@ bool FreeSearch::FindVariance(BodyState& state) const {
     const double found = ScaleOf(state.solution);
     if (std::abs(std::log(found)) < 0.1 || scale * found < kLeastScale) return true;
     scale *= found;
-    if (!Solve(scale, false, state)) return false;
+    if (!Solve(scale, Fitted::kFinely, state)) return false;
   }
   return true;
 }

@@ -47,12 +47,14 @@ class FreeSearch {
 
  private:
   struct Pass;
+  /// To the ends of lines, or to all their points, also looking for the edge that contradicts the others.
+  enum class Fitted { kRoughly, kFinely, kWithSuspect };
 
   bool Refine(const Pass& pass, BodyState& state);
   void Look(double gate_px, BodyState& state);
   void Guide(BodyState& state);
   std::span<const CameraView> ViewsOf(const BodyState& state) const;
-  bool Solve(double variance_scale, bool coarse, BodyState& state) const;
+  bool Solve(double variance_scale, Fitted fitted, BodyState& state) const;
   bool DropOutliers(BodyState& state) const;
   bool FindVariance(BodyState& state) const;
   double LogLikelihood(const PoseSolution& solution, int n_outliers) const;

@@ -78,12 +78,12 @@ TEST_F(ContourEvidenceTest, MoreEdgesSeenAreWorthMore) {
 }
 
 TEST_F(ContourEvidenceTest, PiecesMakeALineWithItsBrightSideOnTheRight) {
-  const ContourPieces pieces(SeenAt(truth_), truth_, view_, meters_[0]);
+  const ContourPieces pieces(SeenAt(truth_), truth_, view_);
   int n_lines = 0;
   for (std::size_t i = 0; i < pieces.edges().size(); ++i) {
     if (!pieces.edges()[i]) continue;
     EdgeImage dut;
-    if (!AppendLine(pieces.Measure(i, 2), pieces.edges()[i]->length_px(), kBlur_px, dut)) continue;
+    if (!AppendLine(pieces.Measure(meters_[0], i, 2), pieces.edges()[i]->length_px(), kBlur_px, dut)) continue;
     ++n_lines;
     const EdgeSegment& line = dut.segments.at(0);
     EXPECT_EQ(line.n_points, static_cast<int>(dut.points.size()));
