@@ -100,7 +100,7 @@ FreeModelFix LocateFreeModel(const Polyhedron& body, const Eigen::Isometry3d& be
   const LandmarkModel seen = VisibleSkeleton(body, believed.inverse() * eye);
   const Eigen::Vector3d middle = MiddleOf(seen);
   const double distance_m = (believed * middle - eye).norm();
-  FreeSearch search(body, views, options, distance_m);
+  FreeSearch search(body, views, options, middle, distance_m);
   fix.verdict = Verdict::kNotVisible;
   int n_visible = 0;
   for (const LandmarkEdge& edge : seen.edges)

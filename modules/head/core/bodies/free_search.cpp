@@ -24,6 +24,8 @@ constexpr int kFewest = 5;              ///< edges with which a pose can be fitt
 constexpr double kSoft_px = 1.5;        ///< from that blur on, the operator loses more edges
 constexpr double kSoftDetection = 0.7;  ///< chance that it finds one then
 constexpr double kLeastScale = 1e-3;    ///< edges fit no better than by this share of the variance expected
+/// Poses this near to each other end as one: by a share of the distance, and by an angle.
+constexpr double kSameShare = 0.001, kSame_rad = 0.001;
 
 /// Variance of the residuals over the supposed one; unbiased for the inverse, which errors are counted by.
 double ScaleOf(const PoseSolution& solution) {
@@ -51,8 +53,8 @@ double UnitOf(std::span<const BodyState> states) {
 }
 
 FreeSearch::FreeSearch(const Polyhedron& body, std::span<const CameraView> views,
-                       const FreeModelOptions& options, double distance_m)
-    : body_(body), views_(views), options_(options) {
+                       const FreeModelOptions& options, const Eigen::Vector3d& middle, double distance_m)
+    : body_(body), views_(views), options_(options), middle_(middle), distance_m_(distance_m) {
   for (const CameraView& view : views) {
     cameras_.push_back(view.camera);
     blur_px_ = std::max(blur_px_, view.blur_px);
@@ -78,8 +80,27 @@ std::vector<BodyState> FreeSearch::Refine(std::span<const Eigen::Isometry3d> pos
     if (static_cast<int>(states.size()) > pass.n_poses) states.resize(pass.n_poses);
     std::erase_if(states, [&](BodyState& state) { return !Refine(pass, state); });
     SortByOdds(states);
+    DropRepeated(states);
   }
   return states;
+}
+
+/// Poses that came to the same place are fitted once: the best of them is kept.
+void FreeSearch::DropRepeated(std::vector<BodyState>& states) const {
+  std::vector<BodyState> kept;
+  kept.reserve(states.size());
+  for (BodyState& state : states) {
+    const auto is_same = [&](const BodyState& other) {
+      return IsSame(state.base_from_model, other.base_from_model);
+    };
+    if (std::none_of(kept.begin(), kept.end(), is_same)) kept.push_back(std::move(state));
+  }
+  states = std::move(kept);
+}
+
+bool FreeSearch::IsSame(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const {
+  const Eigen::AngleAxisd turn((a.linear().transpose() * b.linear()).eval());
+  return (a * middle_ - b * middle_).norm() < kSameShare * distance_m_ && std::abs(turn.angle()) < kSame_rad;
 }
 
 /// One pass: the visible edges are compared with the images, then the pose is fitted. In the end by least

@@ -34,9 +34,10 @@ double UnitOf(std::span<const BodyState> states);
 /// passes the images are measured once more along the edges of each pose.
 class FreeSearch {
  public:
-  /// Keeps references to all that it is given; `distance_m` is that of the body from the first camera.
+  /// Keeps references to the first three; `middle` is that of the body, landmark frame, `distance_m` how far
+  /// it is from the first camera.
   FreeSearch(const Polyhedron& body, std::span<const CameraView> views, const FreeModelOptions& options,
-             double distance_m);
+             const Eigen::Vector3d& middle, double distance_m);
 
   /// The poses after all passes, best first; those that lost too many edges are dropped.
   std::vector<BodyState> Refine(std::span<const Eigen::Isometry3d> poses);
@@ -51,6 +52,8 @@ class FreeSearch {
   enum class Fitted { kRoughly, kFinely, kWithSuspect };
 
   bool Refine(const Pass& pass, BodyState& state);
+  void DropRepeated(std::vector<BodyState>& states) const;
+  bool IsSame(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const;
   void Look(double gate_px, BodyState& state);
   void Guide(BodyState& state);
   std::span<const CameraView> ViewsOf(const BodyState& state) const;
@@ -63,6 +66,8 @@ class FreeSearch {
   const Polyhedron& body_;
   std::span<const CameraView> views_;
   const FreeModelOptions& options_;
+  const Eigen::Vector3d middle_;
+  const double distance_m_;
   std::vector<const CameraModel*> cameras_;
   std::vector<GuidedEdges> guides_;  ///< one for each view, or none if an image is not at hand
   std::vector<StepMeter> meters_;    ///< the same
