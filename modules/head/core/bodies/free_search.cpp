@@ -24,6 +24,7 @@ constexpr int kFewest = 5;              ///< edges with which a pose can be fitt
 constexpr double kSoft_px = 1.5;        ///< from that blur on, the operator loses more edges
 constexpr double kSoftDetection = 0.7;  ///< chance that it finds one then
 constexpr double kLeastScale = 1e-3;    ///< edges fit no better than by this share of the variance expected
+constexpr double kLookGate_px = 1.8;
 /// Poses this near to each other end as one: by a share of the distance, and by an angle.
 constexpr double kSameShare = 0.001, kSame_rad = 0.001;
 
@@ -70,19 +71,34 @@ FreeSearch::FreeSearch(const Polyhedron& body, std::span<const CameraView> views
   }
 }
 
-std::vector<BodyState> FreeSearch::Refine(std::span<const Eigen::Isometry3d> poses) {
-  constexpr Pass kPasses[] = {
-      {6, 100, true, false}, {3, 100, true, true}, {1.8, 3, false, true}, {1.2, 3, false, true}};
+std::vector<BodyState> FreeSearch::Roughly(std::span<const Eigen::Isometry3d> poses) {
   std::vector<BodyState> states;
   states.reserve(poses.size());
   for (const Eigen::Isometry3d& pose : poses) states.push_back({pose});
-  for (const Pass& pass : kPasses) {
-    if (static_cast<int>(states.size()) > pass.n_poses) states.resize(pass.n_poses);
-    std::erase_if(states, [&](BodyState& state) { return !Refine(pass, state); });
-    SortByOdds(states);
-    DropRepeated(states);
-  }
+  constexpr Pass kFirst{6, 100, true, false};
+  Refine(kFirst, states);
   return states;
+}
+
+std::vector<BodyState> FreeSearch::Refine(std::vector<BodyState> states) {
+  constexpr Pass kPasses[] = {{3, 100, true, true}, {1.8, 3, false, true}, {1.2, 3, false, true}};
+  for (const Pass& pass : kPasses) Refine(pass, states);
+  return states;
+}
+
+void FreeSearch::Refine(const Pass& pass, std::vector<BodyState>& states) {
+  if (static_cast<int>(states.size()) > pass.n_poses) states.resize(pass.n_poses);
+  std::erase_if(states, [&](BodyState& state) { return !Refine(pass, state); });
+  SortByOdds(states);
+  DropRepeated(states);
+}
+
+BodyState FreeSearch::LookAt(const Eigen::Isometry3d& pose) {
+  BodyState state{pose};
+  state.seen = VisibleSkeleton(body_, pose.inverse() * OpticalCentre(*cameras_[0]));
+  Guide(state);
+  Look(kLookGate_px, state);
+  return state;
 }
 
 /// Poses that came to the same place are fitted once: the best of them is kept.
@@ -140,8 +156,8 @@ void FreeSearch::Look(double gate_px, BodyState& state) {
 }
 
 bool FreeSearch::Solve(double variance_scale, Fitted fitted, BodyState& state) const {
-  const auto observations =
-      Observations(state.seen, state.association, ViewsOf(state), state.base_from_model, fitted == Fitted::kRoughly);
+  const auto observations = Observations(state.seen, state.association, ViewsOf(state), state.base_from_model,
+                                         fitted == Fitted::kRoughly);
   PoseSolverOptions solver = options_.solver;
   const double factor = std::sqrt(variance_scale);
   solver.edge_sigma_px = factor * EdgeSigma();

@@ -39,8 +39,12 @@ class FreeSearch {
   FreeSearch(const Polyhedron& body, std::span<const CameraView> views, const FreeModelOptions& options,
              const Eigen::Vector3d& middle, double distance_m);
 
-  /// The poses after all passes, best first; those that lost too many edges are dropped.
-  std::vector<BodyState> Refine(std::span<const Eigen::Isometry3d> poses);
+  /// The different poses after the first pass, best first, also those at which few edges were found.
+  std::vector<BodyState> Roughly(std::span<const Eigen::Isometry3d> poses);
+  /// What the other passes leave of these, best first; those that lost too many edges are dropped.
+  std::vector<BodyState> Refine(std::vector<BodyState> states);
+  /// A pose as it is, compared with the images.
+  BodyState LookAt(const Eigen::Isometry3d& pose);
 
   double blur_px() const { return blur_px_; }  ///< of the least sharp image
   /// One for each view, or none if an image is not at hand.
@@ -51,6 +55,7 @@ class FreeSearch {
   /// To the ends of lines, or to all their points, also looking for the edge that contradicts the others.
   enum class Fitted { kRoughly, kFinely, kWithSuspect };
 
+  void Refine(const Pass& pass, std::vector<BodyState>& states);
   bool Refine(const Pass& pass, BodyState& state);
   void DropRepeated(std::vector<BodyState>& states) const;
   bool IsSame(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const;
