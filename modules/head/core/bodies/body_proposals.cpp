@@ -46,7 +46,8 @@ Vector6 NormalPoint(int k) {
   double step = 1;
   for (double& u : uniform) {
     step /= kRatio;
-    u = std::fmod(0.5 + (k + 1) * step, 1.0);
+    const double along = 0.5 + (k + 1) * step;
+    u = along - std::floor(along);
   }
   Vector6 normal;
   for (int i = 0; i < 6; i += 2) {  // Box and Muller

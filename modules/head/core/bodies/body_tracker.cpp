@@ -25,6 +25,7 @@ FreeModelFix BodyTracker::Look(std::span<const CameraView> views) {
     if (belief.is_followed) {
       options.min_agreement = options.min_agreement_when_coarse = options_.min_agreement_when_followed;
       options.min_evidence = options_.min_evidence_when_followed;
+      options.trust_linked = true;
     }
     FreeModelFix fix = LocateFreeModel(body_, belief.base_from_model, views, options);
     if (fix.verdict == Verdict::kFound) {

@@ -17,6 +17,10 @@ constexpr double kSeenShare = 0.4;  ///< share of an edge that must be seen for 
 /// Weights of what the contour shows beside BodyAgreement::Value, which is 1.
 constexpr double kSeenWeight = 1.47, kEdgesWeight = 0.68, kBesideWeight = 0.60;
 
+/// Weights of ContourEvidence::LogOdds: a logistic regression, the density of the prior as it is.
+constexpr double kOdds = -16.92, kOddsOfCovered = 7.52, kOddsOfEnds = 6.53, kOddsOfSeen = 4.20,
+                 kOddsOfEdges = 6.53, kOddsOfBeside = 13.51;
+
 /// Lengths of one edge, by what is there.
 struct EdgeLengths {
   double seen = 0, blank = 0, other = 0, squares = 0;
@@ -42,20 +46,24 @@ void Add(const EdgeLengths& edge, ContourEvidence& sum) {
 
 }  // namespace
 
-double ContourEvidence::Value(double agreement) const {
-  return agreement + kSeenWeight * seen + kEdgesWeight * std::log(std::max(1, n_seen)) -
-         kBesideWeight * rms_px;
+double ContourEvidence::Shown() const {
+  return kSeenWeight * seen + kEdgesWeight * std::log(std::max(1, n_seen)) - kBesideWeight * rms_px;
+}
+
+double ContourEvidence::LogOdds(const BodyAgreement& linked, double prior_sigmas) const {
+  return kOdds + kOddsOfCovered * linked.covered + kOddsOfEnds * linked.ends + kOddsOfSeen * seen +
+         kOddsOfEdges * std::log(std::max(1, n_seen)) - kOddsOfBeside * rms_px - Square(prior_sigmas) / 2;
 }
 
 ContourEvidence EvidenceOf(const LandmarkModel& seen, const Eigen::Isometry3d& base_from_model,
                            std::span<const CameraView> views, std::span<const StepMeter> meters) {
   ContourEvidence evidence;  // sums of lengths first
   for (std::size_t v = 0; v < views.size(); ++v) {
-    const ContourPieces contour(seen, base_from_model, views[v], meters[v]);
+    const ContourPieces contour(seen, base_from_model, views[v]);
     for (std::size_t i = 0; i < contour.edges().size(); ++i) {
       if (!contour.edges()[i] || contour.edges()[i]->length_px() < kShortestEdge_px) continue;
       EdgeLengths lengths;
-      for (const ContourPiece& piece : contour.Measure(i, 0)) lengths.Add(piece);
+      for (const ContourPiece& piece : contour.Measure(meters[v], i, 0)) lengths.Add(piece);
       if (lengths.all() > 0) Add(lengths, evidence);
     }
   }

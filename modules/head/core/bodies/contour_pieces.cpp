@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "head/core/edges/median.hpp"
 
 namespace priamos::head {
 namespace {
@@ -23,8 +26,7 @@ double MedianShift(const std::vector<const ContourPiece*>& pieces) {
   std::vector<double> shifts;
   shifts.reserve(pieces.size());
   for (const ContourPiece* piece : pieces) shifts.push_back(piece->step.shift_px);
-  std::nth_element(shifts.begin(), shifts.begin() + shifts.size() / 2, shifts.end());
-  return shifts[shifts.size() / 2];
+  return Median(std::move(shifts));
 }
 
 /// The clear ones of the contrast sign that most have, near to their median.
@@ -57,15 +59,16 @@ bool ContourPiece::IsStep() const {
 }
 
 ContourPieces::ContourPieces(const LandmarkModel& seen, const Eigen::Isometry3d& base_from_model,
-                             const CameraView& view, const StepMeter& meter)
-    : view_(view), meter_(meter) {
+                             const CameraView& view)
+    : view_(view) {
   edges_.reserve(seen.edges.size());
   for (const LandmarkEdge& edge : seen.edges)
     edges_.push_back(
         ProjectEdge(*view.camera, view.size, base_from_model * edge.from, base_from_model * edge.to));
 }
 
-std::vector<ContourPiece> ContourPieces::Measure(std::size_t edge, int n_beyond) const {
+std::vector<ContourPiece> ContourPieces::Measure(const StepMeter& meter, std::size_t edge,
+                                                 int n_beyond) const {
   const ProjectedEdge& projected = *edges_[edge];
   const double length = projected.length_px();
   const Eigen::Vector2d direction = projected.direction();
@@ -81,7 +84,7 @@ std::vector<ContourPiece> ContourPieces::Measure(std::size_t edge, int n_beyond)
         (view_.camera->Distort(at + direction) - view_.camera->Distort(at - direction)).normalized();
     piece.at = view_.camera->Distort(at);
     piece.normal = {-tangent.y(), tangent.x()};
-    const auto step = meter_.Measure(piece.at, piece.normal, piece.length_px, Beside(edge, piece.along_px));
+    const auto step = meter.Measure(piece.at, piece.normal, piece.length_px, Beside(edge, piece.along_px));
     if (!step) continue;
     piece.step = *step;
     pieces.push_back(piece);

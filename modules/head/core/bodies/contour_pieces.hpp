@@ -25,21 +25,19 @@ struct ContourPiece {
 /// The predicted edges of one body in one image.
 class ContourPieces {
  public:
-  /// Projects `seen` at `base_from_model`. Keeps references to `view` and `meter`.
-  ContourPieces(const LandmarkModel& seen, const Eigen::Isometry3d& base_from_model, const CameraView& view,
-                const StepMeter& meter);
+  /// Projects `seen` at `base_from_model`. Keeps a reference to `view`.
+  ContourPieces(const LandmarkModel& seen, const Eigen::Isometry3d& base_from_model, const CameraView& view);
 
   /// Of each edge of `seen`; nullopt where it is not in the image.
   std::span<const std::optional<ProjectedEdge>> edges() const { return edges_; }
-  /// The pieces of an edge that is in the image, `n_beyond` more at each end of it; those at the border of
-  /// the image are left out.
-  std::vector<ContourPiece> Measure(std::size_t edge, int n_beyond) const;
+  /// The pieces of an edge that is in the image of `meter`, `n_beyond` more at each end of it; those at the
+  /// border of the image are left out.
+  std::vector<ContourPiece> Measure(const StepMeter& meter, std::size_t edge, int n_beyond) const;
 
  private:
   std::vector<double> Beside(std::size_t edge, double along_px) const;
 
   const CameraView& view_;
-  const StepMeter& meter_;
   std::vector<std::optional<ProjectedEdge>> edges_;
 };
 

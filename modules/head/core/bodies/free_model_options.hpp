@@ -14,12 +14,21 @@ struct FreeModelOptions {
   BodyProposalOptions proposals{};
   int min_matched = 6;      ///< edges that must be found or seen, all images together
   double min_log_odds = 6;  ///< of the body there against clutter only
-  /// ContourEvidence::Value: enough by itself, as the agreement is.
+  /// ContourEvidence::Value: enough by itself, as the agreement is, in images that are not blurred.
   double min_evidence = 3.42;
+  /// From that blur on the contour alone decides, by ContourEvidence::LogOdds: the linked edges of another
+  /// body may agree as well as those of the right one.
+  double blurred_px = 2, min_contour_odds = 2.2;
+  double min_contour_lead = 0.45;  ///< ContourEvidence::Shown over the best different pose
+  /// Whether linked edges that agree are enough in blurred images, too, as for a body that is followed.
+  bool trust_linked = false;
   double min_agreement = 1.15;  ///< BodyAgreement::Value
   /// The same where the edges tell the pose less well than fine_sigma_*, as of a small body: one of another
   /// size fits them nearly as well.
   double min_agreement_when_coarse = 1.25;
+  /// Both limits, and min_evidence, grow by that for each unit by which the squared distance from the belief,
+  /// in sigmas, is more than three of four beliefs have (chi squared of six degrees of freedom).
+  double usual_distance_squared = 8, evidence_by_distance = 0.2;
   double min_lead = 4;                                  ///< log odds over the best different pose
   double distinct_share = 0.01, distinct_rad = 0.0175;  ///< poses farther apart are different
   double max_misfit = 4;  ///< largest variance of the edges over the one that is expected of them

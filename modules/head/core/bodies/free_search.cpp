@@ -24,6 +24,9 @@ constexpr int kFewest = 5;              ///< edges with which a pose can be fitt
 constexpr double kSoft_px = 1.5;        ///< from that blur on, the operator loses more edges
 constexpr double kSoftDetection = 0.7;  ///< chance that it finds one then
 constexpr double kLeastScale = 1e-3;    ///< edges fit no better than by this share of the variance expected
+constexpr double kLookGate_px = 1.8;
+/// Poses this near to each other end as one: by a share of the distance, and by an angle.
+constexpr double kSameShare = 0.001, kSame_rad = 0.001;
 
 /// Variance of the residuals over the supposed one; unbiased for the inverse, which errors are counted by.
 double ScaleOf(const PoseSolution& solution) {
@@ -51,8 +54,8 @@ double UnitOf(std::span<const BodyState> states) {
 }
 
 FreeSearch::FreeSearch(const Polyhedron& body, std::span<const CameraView> views,
-                       const FreeModelOptions& options, double distance_m)
-    : body_(body), views_(views), options_(options) {
+                       const FreeModelOptions& options, const Eigen::Vector3d& middle, double distance_m)
+    : body_(body), views_(views), options_(options), middle_(middle), distance_m_(distance_m) {
   for (const CameraView& view : views) {
     cameras_.push_back(view.camera);
     blur_px_ = std::max(blur_px_, view.blur_px);
@@ -68,18 +71,52 @@ FreeSearch::FreeSearch(const Polyhedron& body, std::span<const CameraView> views
   }
 }
 
-std::vector<BodyState> FreeSearch::Refine(std::span<const Eigen::Isometry3d> poses) {
-  constexpr Pass kPasses[] = {
-      {6, 100, true, false}, {3, 100, true, true}, {1.8, 3, false, true}, {1.2, 3, false, true}};
+std::vector<BodyState> FreeSearch::Roughly(std::span<const Eigen::Isometry3d> poses) {
   std::vector<BodyState> states;
   states.reserve(poses.size());
   for (const Eigen::Isometry3d& pose : poses) states.push_back({pose});
-  for (const Pass& pass : kPasses) {
-    if (static_cast<int>(states.size()) > pass.n_poses) states.resize(pass.n_poses);
-    std::erase_if(states, [&](BodyState& state) { return !Refine(pass, state); });
-    SortByOdds(states);
-  }
+  constexpr Pass kFirst{6, 100, true, false};
+  Refine(kFirst, states);
   return states;
+}
+
+std::vector<BodyState> FreeSearch::Refine(std::vector<BodyState> states) {
+  constexpr Pass kPasses[] = {{3, 100, true, true}, {1.8, 3, false, true}, {1.2, 3, false, true}};
+  for (const Pass& pass : kPasses) Refine(pass, states);
+  return states;
+}
+
+void FreeSearch::Refine(const Pass& pass, std::vector<BodyState>& states) {
+  if (static_cast<int>(states.size()) > pass.n_poses) states.resize(pass.n_poses);
+  std::erase_if(states, [&](BodyState& state) { return !Refine(pass, state); });
+  SortByOdds(states);
+  DropRepeated(states);
+}
+
+BodyState FreeSearch::LookAt(const Eigen::Isometry3d& pose) {
+  BodyState state{pose};
+  state.seen = VisibleSkeleton(body_, pose.inverse() * OpticalCentre(*cameras_[0]));
+  Guide(state);
+  Look(kLookGate_px, state);
+  return state;
+}
+
+/// Poses that came to the same place are fitted once: the best of them is kept.
+void FreeSearch::DropRepeated(std::vector<BodyState>& states) const {
+  std::vector<BodyState> kept;
+  kept.reserve(states.size());
+  for (BodyState& state : states) {
+    const auto is_same = [&](const BodyState& other) {
+      return IsSame(state.base_from_model, other.base_from_model);
+    };
+    if (std::none_of(kept.begin(), kept.end(), is_same)) kept.push_back(std::move(state));
+  }
+  states = std::move(kept);
+}
+
+bool FreeSearch::IsSame(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const {
+  const Eigen::AngleAxisd turn((a.linear().transpose() * b.linear()).eval());
+  return (a * middle_ - b * middle_).norm() < kSameShare * distance_m_ && std::abs(turn.angle()) < kSame_rad;
 }
 
 /// One pass: the visible edges are compared with the images, then the pose is fitted. In the end by least
@@ -91,7 +128,7 @@ bool FreeSearch::Refine(const Pass& pass, BodyState& state) {
   if (pass.guided) Guide(state);
   Look(pass.gate_px, state);
   if (static_cast<int>(state.association.matches.size()) < kFewest) return !pass.guided && !guides_.empty();
-  return pass.coarse ? Solve(1, true, state) : DropOutliers(state) && FindVariance(state);
+  return pass.coarse ? Solve(1, Fitted::kRoughly, state) : DropOutliers(state) && FindVariance(state);
 }
 
 void FreeSearch::Guide(BodyState& state) {
@@ -118,15 +155,15 @@ void FreeSearch::Look(double gate_px, BodyState& state) {
   state.association = Associate(state.seen, all, ViewsOf(state), state.base_from_model, association);
 }
 
-bool FreeSearch::Solve(double variance_scale, bool coarse, BodyState& state) const {
-  const auto observations =
-      Observations(state.seen, state.association, ViewsOf(state), state.base_from_model, coarse);
+bool FreeSearch::Solve(double variance_scale, Fitted fitted, BodyState& state) const {
+  const auto observations = Observations(state.seen, state.association, ViewsOf(state), state.base_from_model,
+                                         fitted == Fitted::kRoughly);
   PoseSolverOptions solver = options_.solver;
   const double factor = std::sqrt(variance_scale);
   solver.edge_sigma_px = factor * EdgeSigma();
   solver.model_sigma_m *= factor;
   solver.tilt_sigma_m *= factor;
-  solver.find_suspect = !coarse;
+  solver.find_suspect = fitted == Fitted::kWithSuspect;
   state.solution = SolvePose(state.seen, cameras_, observations, state.base_from_model, solver);
   state.variance_scale = variance_scale;
   if (state.solution.ok) state.base_from_model = state.solution.base_from_landmark;
@@ -141,7 +178,7 @@ bool FreeSearch::DropOutliers(BodyState& state) const {
   const int max_dropped = static_cast<int>(options_.max_outlier_share * n_matches());
   const int n_first = n_matches();
   for (int k = 0; k <= max_dropped && n_matches() >= kFewest; ++k) {
-    if (!Solve(1, false, tried)) break;
+    if (!Solve(1, Fitted::kWithSuspect, tried)) break;
     if (const double l = LogLikelihood(tried.solution, n_first - n_matches()); l > most_likely) {
       most_likely = l;
       state = tried;
@@ -168,7 +205,7 @@ bool FreeSearch::FindVariance(BodyState& state) const {
     const double found = ScaleOf(state.solution);
     if (std::abs(std::log(found)) < 0.1 || scale * found < kLeastScale) return true;
     scale *= found;
-    if (!Solve(scale, false, state)) return false;
+    if (!Solve(scale, Fitted::kFinely, state)) return false;
   }
   return true;
 }

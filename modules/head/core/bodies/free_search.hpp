@@ -34,12 +34,17 @@ double UnitOf(std::span<const BodyState> states);
 /// passes the images are measured once more along the edges of each pose.
 class FreeSearch {
  public:
-  /// Keeps references to all that it is given; `distance_m` is that of the body from the first camera.
+  /// Keeps references to the first three; `middle` is that of the body, landmark frame, `distance_m` how far
+  /// it is from the first camera.
   FreeSearch(const Polyhedron& body, std::span<const CameraView> views, const FreeModelOptions& options,
-             double distance_m);
+             const Eigen::Vector3d& middle, double distance_m);
 
-  /// The poses after all passes, best first; those that lost too many edges are dropped.
-  std::vector<BodyState> Refine(std::span<const Eigen::Isometry3d> poses);
+  /// The different poses after the first pass, best first, also those at which few edges were found.
+  std::vector<BodyState> Roughly(std::span<const Eigen::Isometry3d> poses);
+  /// What the other passes leave of these, best first; those that lost too many edges are dropped.
+  std::vector<BodyState> Refine(std::vector<BodyState> states);
+  /// A pose as it is, compared with the images.
+  BodyState LookAt(const Eigen::Isometry3d& pose);
 
   double blur_px() const { return blur_px_; }  ///< of the least sharp image
   /// One for each view, or none if an image is not at hand.
@@ -47,12 +52,17 @@ class FreeSearch {
 
  private:
   struct Pass;
+  /// To the ends of lines, or to all their points, also looking for the edge that contradicts the others.
+  enum class Fitted { kRoughly, kFinely, kWithSuspect };
 
+  void Refine(const Pass& pass, std::vector<BodyState>& states);
   bool Refine(const Pass& pass, BodyState& state);
+  void DropRepeated(std::vector<BodyState>& states) const;
+  bool IsSame(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const;
   void Look(double gate_px, BodyState& state);
   void Guide(BodyState& state);
   std::span<const CameraView> ViewsOf(const BodyState& state) const;
-  bool Solve(double variance_scale, bool coarse, BodyState& state) const;
+  bool Solve(double variance_scale, Fitted fitted, BodyState& state) const;
   bool DropOutliers(BodyState& state) const;
   bool FindVariance(BodyState& state) const;
   double LogLikelihood(const PoseSolution& solution, int n_outliers) const;
@@ -61,6 +71,8 @@ class FreeSearch {
   const Polyhedron& body_;
   std::span<const CameraView> views_;
   const FreeModelOptions& options_;
+  const Eigen::Vector3d middle_;
+  const double distance_m_;
   std::vector<const CameraModel*> cameras_;
   std::vector<GuidedEdges> guides_;  ///< one for each view, or none if an image is not at hand
   std::vector<StepMeter> meters_;    ///< the same

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <vector>
 
 #include "head/core/bodies/contour_pieces.hpp"
 
@@ -41,19 +41,16 @@ void RemoveLast(EdgeImage& edges) {
 EdgeImage MeasureAlong(const LandmarkModel& seen, const Eigen::Isometry3d& base_from_model,
                        const CameraView& view, GuidedEdges& guide, const StepMeter* meter) {
   EdgeImage measured;
-  std::optional<ContourPieces> contour;
-  if (meter) contour.emplace(seen, base_from_model, view, *meter);
+  const ContourPieces contour(seen, base_from_model, view);
   for (std::size_t i = 0; i < seen.edges.size(); ++i) {
-    const LandmarkEdge& edge = seen.edges[i];
-    const auto expected =
-        ProjectEdge(*view.camera, view.size, base_from_model * edge.from, base_from_model * edge.to);
+    const auto& expected = contour.edges()[i];
     if (!expected || expected->length_px() < kShortest_px) continue;
     const bool is_guided =
         guide.Measure(view.camera->Distort(expected->p), view.camera->Distort(expected->q), measured);
     const double guided_px = is_guided ? measured.segments.back().length_px() : 0;
-    if (!contour || guided_px > kMostOfIt * expected->length_px()) continue;
+    if (!meter || guided_px > kMostOfIt * expected->length_px()) continue;
     EdgeImage line;
-    if (!AppendLine(contour->Measure(i, kBeyond), expected->length_px(), view.blur_px, line) ||
+    if (!AppendLine(contour.Measure(*meter, i, kBeyond), expected->length_px(), view.blur_px, line) ||
         line.segments[0].length_px() < guided_px)
       continue;
     if (is_guided) RemoveLast(measured);
@@ -62,16 +59,38 @@ EdgeImage MeasureAlong(const LandmarkModel& seen, const Eigen::Isometry3d& base_
   return measured;
 }
 
-/// Both put together, each edge once: as it was measured where it was, else as the operator found it.
-EdgeImage Join(const EdgeImage& found, const EdgeImage& measured) {
-  EdgeImage all = found;
-  all.segments = measured.segments;
-  all.points = measured.points;
-  for (const EdgeSegment& line : found.segments) {
-    const auto repeats = [&](const EdgeSegment& m) { return Repeats(m, line); };
-    if (std::none_of(measured.segments.begin(), measured.segments.end(), repeats)) Append(line, found, all);
+/// Takes over what `view` has of one of its lines.
+void Append(const ViewLine& line, const CameraView& view, EdgeImage& edges, CameraView& to) {
+  const EdgeSegment& segment = view.edges->segments[line.segment];
+  const auto first = view.points.begin() + segment.first_point;
+  to.points.insert(to.points.end(), first, first + segment.n_points);
+  to.lines.push_back(line);
+  to.lines.back().segment = static_cast<int>(edges.segments.size());
+  to.table.px.push_back(static_cast<float>(line.p.x()));
+  to.table.py.push_back(static_cast<float>(line.p.y()));
+  to.table.qx.push_back(static_cast<float>(line.q.x()));
+  to.table.qy.push_back(static_cast<float>(line.q.y()));
+  to.table.length.push_back(static_cast<float>(line.length_px));
+  Append(segment, *view.edges, edges);
+}
+
+/// `view` with what was measured, each edge once: as it was measured where it was, else as the operator found
+/// it. `edges`: what was measured; the view refers to it, and what is taken over is added to it.
+CameraView Join(const CameraView& view, EdgeImage& edges) {
+  const std::vector<EdgeSegment> measured = edges.segments;
+  edges.width = view.size.width;
+  edges.height = view.size.height;
+  edges.noise_sigma = view.edges->noise_sigma;
+  edges.mean_grey = view.edges->mean_grey;
+  edges.saturated_share = view.edges->saturated_share;
+  CameraView joined = MakeView(*view.camera, edges);
+  for (const ViewLine& line : view.lines) {
+    const EdgeSegment& found = view.edges->segments[line.segment];
+    const auto repeats = [&](const EdgeSegment& m) { return Repeats(m, found); };
+    if (std::none_of(measured.begin(), measured.end(), repeats)) Append(line, view, edges, joined);
   }
-  return all;
+  joined.blur_px = view.blur_px;
+  return joined;
 }
 
 }  // namespace
@@ -83,9 +102,8 @@ GuidedViews::GuidedViews(const LandmarkModel& seen, const Eigen::Isometry3d& bas
   views_.reserve(views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
     const StepMeter* meter = i < meters.size() && views[i].blur_px > kLeastBlur_px ? &meters[i] : nullptr;
-    edges_.push_back(Join(*views[i].edges, MeasureAlong(seen, base_from_model, views[i], guides[i], meter)));
-    views_.push_back(MakeView(*views[i].camera, edges_.back()));
-    views_.back().blur_px = views[i].blur_px;
+    edges_.push_back(MeasureAlong(seen, base_from_model, views[i], guides[i], meter));
+    views_.push_back(Join(views[i], edges_.back()));
   }
 }
 

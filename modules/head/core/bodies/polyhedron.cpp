@@ -21,6 +21,7 @@ constexpr double kTouching =
 struct Face {
   Eigen::Vector3d origin, normal, u, v;
   std::vector<Eigen::Vector2d> corners;
+  Eigen::Vector2d low = Eigen::Vector2d::Zero(), high = low;  ///< the rectangle about the corners
   double size = 0;
 };
 
@@ -43,6 +44,8 @@ Face MakeFace(const Polyhedron& body, const std::vector<int>& corners) {
   for (const int c : corners) {
     const Eigen::Vector3d d = body.points[c] - face.origin;
     face.corners.emplace_back(face.u.dot(d), face.v.dot(d));
+    face.low = face.low.cwiseMin(face.corners.back());
+    face.high = face.high.cwiseMax(face.corners.back());
     face.size = std::max(face.size, d.norm());
   }
   return face;
@@ -65,14 +68,56 @@ bool Looks(const Face& face, const Eigen::Vector3d& eye) {
   return face.normal.dot(delta) > kGrazing * delta.norm();
 }
 
-/// True if the face lies between the point and the eye, not merely at the point.
-bool Hides(const Face& face, const Eigen::Vector3d& point, const Eigen::Vector3d& eye) {
-  const double at_point = face.normal.dot(point - face.origin), at_eye = face.normal.dot(eye - face.origin);
-  if (at_point * at_eye >= 0 || std::abs(at_point) < kTouching * std::abs(at_eye)) return false;
-  const double share = at_point / (at_point - at_eye);
-  const Eigen::Vector3d hit = point + share * (eye - point) - face.origin;
-  return Contains(face, {face.u.dot(hit), face.v.dot(hit)});
+Eigen::Vector2d InPlane(const Face& face, const Eigen::Vector3d& from_origin) {
+  return {face.u.dot(from_origin), face.v.dot(from_origin)};
 }
+
+/// A face that may hide an edge from the eye.
+class Screen {
+ public:
+  Screen(const Face& face, const Eigen::Vector3d& eye)
+      : face_(face), eye_(eye), at_eye_(face.normal.dot(eye - face.origin)) {}
+
+  /// True if the face lies between the point and the eye, not merely at the point.
+  bool Hides(const Eigen::Vector3d& point) const {
+    const double at_point = face_.normal.dot(point - face_.origin);
+    if (!IsBehind(at_point, 1)) return false;
+    const Eigen::Vector3d hit = HitOf(point, at_point);
+    return Contains(face_, {face_.u.dot(hit), face_.v.dot(hit)});
+  }
+
+  /// False if it hides nothing between two points, found without a look at those between them: none is behind
+  /// its plane, or it lies beside all rays from there to the eye.
+  bool MayHide(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
+    const double at_from = face_.normal.dot(from - face_.origin), at_to = face_.normal.dot(to - face_.origin);
+    const bool is_from_behind = IsBehind(at_from, 0.5), is_to_behind = IsBehind(at_to, 0.5);
+    if (!is_from_behind && !is_to_behind) return false;
+    // Rays from what is behind the plane meet it between these two places.
+    const auto through = [&]() -> Eigen::Vector3d {
+      return from + (to - from) * (at_from / (at_from - at_to)) - face_.origin;
+    };
+    const Eigen::Vector2d a = InPlane(face_, is_from_behind ? HitOf(from, at_from) : through()),
+                          b = InPlane(face_, is_to_behind ? HitOf(to, at_to) : through());
+    const double margin = 1e-6 * face_.size;
+    return ((a.cwiseMin(b) - face_.high).array() <= margin).all() &&
+           ((face_.low - a.cwiseMax(b)).array() <= margin).all();
+  }
+
+ private:
+  /// Whether a point so far beside the plane lies behind it, by `share` of what makes it so, or more.
+  bool IsBehind(double at_point, double share) const {
+    return at_point * at_eye_ < 0 && std::abs(at_point) >= share * kTouching * std::abs(at_eye_);
+  }
+  /// Where the ray from there to the eye meets the plane, from the face's origin.
+  Eigen::Vector3d HitOf(const Eigen::Vector3d& point, double at_point) const {
+    const double share = at_point / (at_point - at_eye_);
+    return point + share * (eye_ - point) - face_.origin;
+  }
+
+  const Face& face_;
+  const Eigen::Vector3d& eye_;
+  const double at_eye_;
+};
 
 std::vector<Face> FacesOf(const Polyhedron& body) {
   std::vector<Face> faces;
@@ -130,11 +175,14 @@ void AddVisible(const std::vector<Face>& faces, const Eigen::Vector3d& from, con
                 std::optional<double> grey_ratio, const Eigen::Vector3d& eye, double min_m,
                 LandmarkModel& seen) {
   const auto at = [&](int i) -> Eigen::Vector3d { return from + (to - from) * (double(i) / kSamples); };
+  std::vector<Screen> screens;
+  screens.reserve(faces.size());
+  for (const Face& face : faces)
+    if (const Screen screen(face, eye); screen.MayHide(from, to)) screens.push_back(screen);
   int begin = -1;
   for (int i = 0; i <= kSamples + 1; ++i) {
-    const bool visible = i <= kSamples && std::none_of(faces.begin(), faces.end(), [&](const Face& face) {
-                           return Hides(face, at(i), eye);
-                         });
+    const bool visible = i <= kSamples && std::none_of(screens.begin(), screens.end(),
+                                                       [&](const Screen& s) { return s.Hides(at(i)); });
     if (visible && begin < 0) begin = i;
     if (visible || begin < 0) continue;
     const Eigen::Vector3d a = at(begin), b = at(i - 1);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "head/core/doors/image_doors.hpp"
+#include "head/core/edges/median.hpp"
 
 namespace priamos::head {
 namespace {
@@ -63,12 +64,6 @@ std::vector<double> Feet(const Standing& standing, const std::vector<DetectedDoo
       feet.push_back(edge.z_min_m);
   }
   return feet;
-}
-
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// The height by the doors' feet, or by their lintels.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "head/core/stereo/view_line.hpp"
@@ -28,6 +29,11 @@ class EdgeField {
   static constexpr int kDirections = 12;
 
   static int DirectionOf(const Eigen::Vector2d& d);
+  void SetMeans(std::size_t plane);
+  /// Whether a place [cells] is in the region, and not nearer to its border than `margin`.
+  bool Holds(const Eigen::Vector2d& at, double margin) const {
+    return at.x() >= margin && at.y() >= margin && at.x() < width_ - margin && at.y() < height_ - margin;
+  }
   void Draw(const ViewLine& line, double sigma_cells);
   void Raise(int x, int y, int first_direction, int n_directions, float value);
 
@@ -35,7 +41,7 @@ class EdgeField {
   double cell_px_;
   int width_, height_;
   std::vector<float> cells_;
-  std::vector<double> mean_;
+  std::array<double, kDirections> mean_{};
 };
 
 }  // namespace priamos::head

@@ -26,9 +26,12 @@ Eigen::Index ColumnOf(int edge) {
   return Eigen::Index{3} * edge;
 }
 
-/// A residual with the error that all cameras share, in standard deviations.
+/// A residual with the error that all cameras share, in standard deviations, and with what it grows by with
+/// the errors of the model.
 struct Row : EdgeResidual {
   Vector6 by_common = Vector6::Zero();
+  Eigen::Vector3d in_model = Eigen::Vector3d::Zero();  ///< EdgeResidual::across, landmark frame
+  double by_breadth = 0;  ///< with the breadth of the landmark, whose sides lie half of it beside the middle
 };
 
 /// The least squares problem: an edge gives two measurements per image, its distances at two places along it.
@@ -79,7 +82,9 @@ class Problem {
         const LandmarkEdge& edge = model_.edges[line.edge];
         const auto residual = ResidualOf(*cameras_[line.camera], pose_, edge, line.at[end]);
         if (!residual) return false;
-        residuals_.push_back({*residual, common_root_.transpose() * residual->by_base.transpose()});
+        residuals_.push_back({*residual, common_root_.transpose() * residual->by_base.transpose(),
+                              pose_.linear().transpose() * residual->across,
+                              residual->across.dot(pose_.linear().col(1)) * edge.ByBreadth()});
         residuals_.back().edge = line.edge;
         residuals_.back().camera = line.camera;
         residuals_.back().variance = Square(line.sigma_px) + Square(options_.edge_sigma_px);
@@ -107,21 +112,14 @@ class Problem {
   double CovarianceByModel(const Row& a, const Row& b) const {
     const Eigen::MatrixXd& known = model_covariance_;
     const Eigen::Index last = known.cols() - 1;
-    const double by_breadth = known(last, last) * ByBreadth(a) * ByBreadth(b);
+    const double by_breadth = known(last, last) * a.by_breadth * b.by_breadth;
     const LandmarkEdge &edge_a = model_.edges[a.edge], &edge_b = model_.edges[b.edge];
     const bool together = (edge_a.IsLevel() && edge_b.IsLevel()) ||
                           (options_.depth_sigma_m > 0 && AreInOneDepth(edge_a, edge_b));
     if (!options_.known && a.edge != b.edge && !together) return by_breadth;
-    const Eigen::Vector3d in_a = pose_.linear().transpose() * a.across,
-                          in_b = pose_.linear().transpose() * b.across;
-    return in_a.dot(known.block<3, 3>(ColumnOf(a.edge), ColumnOf(b.edge)) * in_b) +
-           in_a.dot(known.block<3, 1>(ColumnOf(a.edge), last)) * ByBreadth(b) +
-           in_b.dot(known.block<3, 1>(ColumnOf(b.edge), last)) * ByBreadth(a) + by_breadth;
-  }
-
-  /// How a residual grows with the breadth of the landmark, whose sides lie half of it beside the middle.
-  double ByBreadth(const Row& row) const {
-    return row.across.dot(pose_.linear().col(1)) * model_.edges[row.edge].ByBreadth();
+    return a.in_model.dot(known.block<3, 3>(ColumnOf(a.edge), ColumnOf(b.edge)) * b.in_model) +
+           a.in_model.dot(known.block<3, 1>(ColumnOf(a.edge), last)) * b.by_breadth +
+           b.in_model.dot(known.block<3, 1>(ColumnOf(b.edge), last)) * a.by_breadth + by_breadth;
   }
 
   /// Derivative of the residuals by the errors of the model.
@@ -130,8 +128,8 @@ class Problem {
     for (std::size_t i = 0; i < residuals_.size(); ++i) {
       const Row& row = residuals_[i];
       const auto at = static_cast<Eigen::Index>(i);
-      by.block<1, 3>(at, ColumnOf(row.edge)) = row.across.transpose() * pose_.linear();
-      by(at, by.cols() - 1) = ByBreadth(row);
+      by.block<1, 3>(at, ColumnOf(row.edge)) = row.in_model.transpose();
+      by(at, by.cols() - 1) = row.by_breadth;
     }
     return by;
   }
@@ -212,9 +210,10 @@ class Problem {
     };
     for (const ObservedLine& line : lines_) {
       examine(line.edge, line.camera);
-      const bool first = &line == &*std::find_if(lines_.begin(), lines_.end(),
-                                                 [&](const ObservedLine& l) { return l.edge == line.edge; });
-      if (first) examine(line.edge, -1);
+      const auto is_same = [&](const ObservedLine& l) { return l.edge == line.edge; };
+      const bool first = &line == &*std::find_if(lines_.begin(), lines_.end(), is_same);
+      // Of an edge that one image shows, that would be the same residuals once more.
+      if (first && std::count_if(lines_.begin(), lines_.end(), is_same) > 1) examine(line.edge, -1);
     }
     return worst;
   }

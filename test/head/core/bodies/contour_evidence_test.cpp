@@ -2,47 +2,20 @@
 
 #include <gtest/gtest.h>
 
-#include <opencv2/imgproc.hpp>
-#include <vector>
-
 #include "head/core/bodies/contour_pieces.hpp"
-#include "head/core/bodies/polyhedron.hpp"
-#include "test/head/core/bodies/grey_cupboard.hpp"
+#include "test/head/core/bodies/blurred_cupboard.hpp"
 
 namespace priamos::head {
 namespace {
 
-constexpr double kBlur_px = 3;
-
-/// The cupboard before one camera, blurred.
-class ContourEvidenceTest : public testing::Test {
+class ContourEvidenceTest : public test::BlurredCupboard {
  protected:
-  ContourEvidenceTest() {
-    image_ = test::RenderQuads(cupboard_.quads, truth_, camera_, 1, rng_, 60);
-    cv::GaussianBlur(image_, image_, {0, 0}, kBlur_px);
-    edges_.width = image_.cols;
-    edges_.height = image_.rows;
-    view_ = MakeView(camera_, edges_);
-    view_.blur_px = kBlur_px;
-    meters_.emplace_back(image_, 1, kBlur_px);
-  }
-
   LandmarkModel SeenAt(const Eigen::Isometry3d& pose) const {
     return VisibleSkeleton(cupboard_.body, pose.inverse() * OpticalCentre(camera_));
   }
   ContourEvidence At(const Eigen::Isometry3d& pose) const {
     return EvidenceOf(SeenAt(pose), pose, {&view_, 1}, meters_);
   }
-
-  Rng rng_{3};
-  const CameraModel camera_ = test::HeadCamera(0, 1, 700);
-  const test::GreyCupboard cupboard_;
-  const Eigen::Isometry3d truth_{Eigen::Translation3d(2.6, -0.4, 0.2) *
-                                 Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ())};
-  cv::Mat image_;
-  EdgeImage edges_;  ///< empty: no edge was linked
-  CameraView view_;
-  std::vector<StepMeter> meters_;
 };
 
 TEST_F(ContourEvidenceTest, TheContourIsSeenAtTheTruthThoughNoEdgeWasLinked) {
@@ -77,13 +50,21 @@ TEST_F(ContourEvidenceTest, MoreEdgesSeenAreWorthMore) {
   EXPECT_GT(few.Value(1), (ContourEvidence{.seen = 0.7, .n_seen = 6}.Value(1)));
 }
 
+TEST_F(ContourEvidenceTest, APoseFarFromTheBeliefNeedsMore) {
+  const ContourEvidence evidence{.seen = 0.8, .rms_px = 0.3, .n_seen = 8, .n_edges = 9};
+  const BodyAgreement linked{.covered = 0.8, .ends = 0.8};
+  EXPECT_NEAR(evidence.LogOdds(linked, 0) - evidence.LogOdds(linked, 3), 4.5, 1e-9);
+  EXPECT_GT(evidence.LogOdds(linked, 2), evidence.LogOdds({.covered = 0.6, .ends = 0.8}, 2));
+}
+
 TEST_F(ContourEvidenceTest, PiecesMakeALineWithItsBrightSideOnTheRight) {
-  const ContourPieces pieces(SeenAt(truth_), truth_, view_, meters_[0]);
+  const ContourPieces pieces(SeenAt(truth_), truth_, view_);
   int n_lines = 0;
   for (std::size_t i = 0; i < pieces.edges().size(); ++i) {
     if (!pieces.edges()[i]) continue;
     EdgeImage dut;
-    if (!AppendLine(pieces.Measure(i, 2), pieces.edges()[i]->length_px(), kBlur_px, dut)) continue;
+    if (!AppendLine(pieces.Measure(meters_[0], i, 2), pieces.edges()[i]->length_px(), kBlur_px, dut))
+      continue;
     ++n_lines;
     const EdgeSegment& line = dut.segments.at(0);
     EXPECT_EQ(line.n_points, static_cast<int>(dut.points.size()));

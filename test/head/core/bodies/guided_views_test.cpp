@@ -2,34 +2,23 @@
 
 #include <gtest/gtest.h>
 
-#include <opencv2/imgproc.hpp>
-
 #include "head/core/bodies/free_model_fix.hpp"
 #include "head/core/edges/scale_edges.hpp"
-#include "test/head/core/bodies/grey_cupboard.hpp"
+#include "test/head/core/bodies/blurred_cupboard.hpp"
 
 namespace priamos::head {
 namespace {
 
-/// The cupboard before one camera, blurred.
-class GuidedViewsTest : public testing::Test {
+/// With the edges that the operator finds.
+class GuidedViewsTest : public test::BlurredCupboard {
  protected:
-  explicit GuidedViewsTest(double blur_px = 3) {
-    image_ = test::RenderQuads(cupboard_.quads, truth_, camera_, 1, rng_, 60);
-    cv::GaussianBlur(image_, image_, {0, 0}, blur_px);
+  GuidedViewsTest() {
     ScaleEdgeOperator().Extract(image_, found_);
     view_ = MakeView(camera_, found_.edges);
     view_.blur_px = found_.MedianBlur();
   }
 
-  Rng rng_{3};
-  const CameraModel camera_ = test::HeadCamera(0, 1, 700);
-  const test::GreyCupboard cupboard_;
-  const Eigen::Isometry3d truth_{Eigen::Translation3d(2.6, -0.4, 0.2) *
-                                 Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ())};
-  cv::Mat image_;
   BlurredEdges found_;
-  CameraView view_;
 };
 
 TEST_F(GuidedViewsTest, EachMeasuredEdgeIsThereOnce) {

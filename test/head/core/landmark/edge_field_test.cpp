@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "common/geometry.hpp"
+
 namespace priamos::head {
 namespace {
 
@@ -43,6 +45,25 @@ TEST_F(EdgeFieldTest, LinesOfAnotherDirectionAreNotFelt) {
   const EdgeField dut(ViewOf({100, 100}, {250, 100}), region_, 6);
   EXPECT_NEAR(dut.Along({175, 90}, {175, 110}), 0, 0.01);
   EXPECT_GT(dut.Along({240, 102}, {110, 98}), 0.9) << "either way along";
+}
+
+TEST_F(EdgeFieldTest, LinesOfEachDirectionAreFeltOnThemselves) {
+  const Eigen::Vector2d middle(200, 150);
+  for (int degrees = 0; degrees < 360; degrees += 4) {
+    const double angle = Radians(degrees);
+    const Eigen::Vector2d half = 100 * Eigen::Vector2d(std::cos(angle), std::sin(angle)),
+                          across(-half.y(), half.x());
+    const EdgeField dut(ViewOf(middle - half, middle + half), region_, 6);
+    EXPECT_GT(dut.Along(middle - half, middle + half), 0.8) << degrees;
+    EXPECT_LT(dut.Along(middle - across, middle + across), 0.1) << degrees;
+  }
+}
+
+TEST_F(EdgeFieldTest, ALineThatLeavesTheRegionIsFeltInIt) {
+  const EdgeField dut(ViewOf({100, 100}, {399, 100}), region_, 6);
+  const double inside = dut.Along({300, 100}, {400, 100}), half = dut.Along({300, 100}, {500, 100});
+  EXPECT_NEAR(half, inside / 2, 0.06);
+  EXPECT_LT(dut.Along({401, 100}, {500, 100}), 0.01);
 }
 
 TEST_F(EdgeFieldTest, WhatEveryLineGetsDoesNotCount) {
