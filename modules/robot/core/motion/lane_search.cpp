@@ -99,10 +99,8 @@ class LaneCount {
   void Add(const std::pair<double, double>& offsets) {
     // Offsets may be anything where a thing moves almost along the path.
     constexpr double kOutmost = kMiddle + 1;
-    const auto first =
-        static_cast<int>(std::clamp(std::ceil(offsets.first / kLaneStep_m), -double(kMiddle), kOutmost));
-    const auto last =
-        static_cast<int>(std::clamp(std::floor(offsets.second / kLaneStep_m), -kOutmost, double(kMiddle)));
+    const double first = std::clamp(std::ceil(offsets.first / kLaneStep_m), -double(kMiddle), kOutmost);
+    const double last = std::clamp(std::floor(offsets.second / kLaneStep_m), -kOutmost, double(kMiddle));
     if (first > last) return;
     ++change_[static_cast<std::size_t>(kMiddle + first)];
     --change_[static_cast<std::size_t>(kMiddle + last + 1)];
