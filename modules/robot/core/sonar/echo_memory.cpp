@@ -26,7 +26,7 @@ void EchoMemoryConfig::Describe(Archive& a) {
 }
 
 EchoMemory::EchoMemory(const EchoMemoryConfig& config, const Footprint& footprint)
-    : config_(config), near_map_(config.near_map, footprint), evidence_(config.evidence) {
+    : config_(config), near_map_(config.near_map), evidence_(config.evidence) {
   for (int i = 0; i < kSonars; ++i)
     base_from_sonar_[static_cast<std::size_t>(i)] = BaseFromSonar(i, footprint.Size());
 }

@@ -9,7 +9,6 @@ namespace {
 constexpr double kCell = 0.04;
 // A beam that ends this far behind a thing has gone through its place; less may be the thing's own size.
 constexpr double kBehind = 0.2;
-constexpr double kUnheard_m = 0.12;  ///< sensors measure nothing that is nearer to the base
 constexpr double kSurelyStands_m_s = 0.01, kStands_rad_s = 0.02;
 
 }  // namespace
@@ -46,19 +45,10 @@ bool NearMap::Stands(const Pose2& odom_from_base, double dt_s) const {
   return step.translation().norm() <= kSurelyStands_m_s * dt_s && std::abs(step.yaw) <= kStands_rad_s * dt_s;
 }
 
-/// Lets time pass less for what is too near to be heard: that no echo comes from there says nothing.
-void NearMap::KeepUnheard(const Pose2& odom_from_base, double less_s) {
-  const Pose2 base_from_odom = odom_from_base.Inverse();
-  for (auto& [cell, thing] : things_)
-    if (footprint_.Distance(base_from_odom * thing.in_odom) < kUnheard_m) thing.seen_s += less_s;
-}
-
 void NearMap::Forget(const Pose2& odom_from_base, Time now, bool waits) {
   const double dt_s = now_ ? std::max(Seconds(now - *now_), 0.0) : 0;
-  const bool stands = Stands(odom_from_base, dt_s);
-  const double slow_s = dt_s * config_.keep_s / config_.keep_standing_s;
-  clock_s_ += stands && !waits ? slow_s : dt_s;
-  if (stands && waits) KeepUnheard(odom_from_base, dt_s - slow_s);
+  const bool slowly = !waits && Stands(odom_from_base, dt_s);
+  clock_s_ += dt_s * (slowly ? config_.keep_s / config_.keep_standing_s : 1);
   now_ = now;
   here_ = odom_from_base;
   const Eigen::Vector2d here = here_.translation();

@@ -9,7 +9,6 @@
 #include "common/archive.hpp"
 #include "common/geometry.hpp"
 #include "common/time.hpp"
-#include "robot/core/base/footprint.hpp"
 
 namespace priamos::robot {
 
@@ -30,17 +29,14 @@ struct NearMapConfig {
 /// longer beside a base that stands, which has no other way to know of it when it drives off.
 class NearMap {
  public:
-  /// `footprint`: of the base, on whose edge the sensors are.
-  explicit NearMap(const NearMapConfig& config, const Footprint& footprint = {})
-      : config_(config), footprint_(footprint) {}
+  explicit NearMap(const NearMapConfig& config) : config_(config) {}
 
   /// A believed echo at `range_m` of a sensor at `odom_from_sonar`.
   void Add(const Pose2& odom_from_sonar, double range_m);
   /// Removes the points that lie well before an echo at `range_m` [m], near the axis of its sensor.
   void Clear(const Pose2& odom_from_sonar, double range_m);
   /// Advances time to `now` and forgets what is too old; call it often. `waits`: the base stands before an
-  /// obstacle that blocks its path, so that standing does not keep points for longer, but for those so near
-  /// that no sensor could hear them.
+  /// obstacle that blocks its path, so that standing does not keep points for longer.
   void Forget(const Pose2& odom_from_base, Time now, bool waits = false);
 
   std::vector<Eigen::Vector2d> Points(const Pose2& odom_from_base) const;
@@ -51,11 +47,9 @@ class NearMap {
     Eigen::Vector2d in_odom{0, 0};
     double seen_s = 0;  ///< by clock_s_
   };
-  void KeepUnheard(const Pose2& odom_from_base, double less_s);
   bool Stands(const Pose2& odom_from_base, double dt_s) const;
 
   NearMapConfig config_;
-  Footprint footprint_;
   std::map<Cell, Thing> things_;
   double clock_s_ = 0;  ///< goes slower while the base stands
   std::optional<Time> now_;

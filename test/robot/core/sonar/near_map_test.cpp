@@ -77,19 +77,6 @@ TEST_F(NearMapTest, KeepsAThingLongerWhileTheBaseStands) {
   EXPECT_THAT(dut_.Points({}), IsEmpty()) << "or a person who went away would block it for ever";
 }
 
-TEST_F(NearMapTest, AWaitingBaseKeepsWhatIsTooNearToBeHeard) {
-  Time now = kStart;
-  dut_.Forget({}, now);
-  dut_.Add({0.475, 0, 0}, 0.1);
-  const auto wait = [&](double seconds) {
-    for (const Time end = now + FromSeconds(seconds); now < end;) dut_.Forget({}, now += kTick, true);
-  };
-  wait(29);
-  EXPECT_THAT(dut_.Points({}), SizeIs(1));
-  wait(2);
-  EXPECT_THAT(dut_.Points({}), IsEmpty());
-}
-
 TEST_F(NearMapTest, ABaseThatWaitsForItsWayToBecomeFreeForgetsAsBefore) {
   dut_.Forget({}, kStart);
   dut_.Add({0.475, 0, 0}, 0.3);
