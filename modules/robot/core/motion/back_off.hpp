@@ -32,12 +32,11 @@ struct OtherWay {
   Things taken = Things::kAsHeard;  ///< how it takes things
 };
 
-/// Another way than the one that ends at `here`: of those that lead on the one that begins nearest behind
-/// `here`, at most 1.6 m back. Only if there is none are things taken as smaller than they are heard, at
-/// first without going back, unless the one that ends here was `tried` so. nullopt: none leads on.
+/// Another way than the one that ends at `here`, things taken so: the cheapest that leads on, from any place
+/// of the driven way that is 0.2 to 4 m back, or `also_here`, counting the way back. nullopt: none leads on.
 std::optional<OtherWay> FindOtherWay(const DetourConfig& config, const Footprint& footprint,
                                      const PathShape& path, const PathPlace& here,
                                      std::span<const Eigen::Vector2d> things, const DrivenWay& driven,
-                                     Things tried = Things::kAsHeard);
+                                     Things taken = Things::kAsHeard, bool also_here = false);
 
 }  // namespace priamos::robot

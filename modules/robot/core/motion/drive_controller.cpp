@@ -242,7 +242,7 @@ Twist2 DriveController::WantedByPath(const DriveSituation& situation, const Obst
   }
   if (!follower_.has_path()) return {};
   if (path_->centre) KeepCentred(situation, now);
-  follower_.Avoid(ThingsInMap(situation, around, now), now);
+  if (follower_.LooksAround(now)) follower_.Avoid(ThingsInMap(situation, around, now), now);
   const double age_s = std::clamp(Seconds(now - estimate.time), 0.0, config_.failsafe.wheels_silent_s);
   const PathFollower::Wanted wanted = follower_.Step(estimate.pose, estimate.twist, age_s, dt_s);
   state_.remaining_m = wanted.remaining_m;
@@ -260,6 +260,7 @@ bool DriveController::StandsForMover(const DriveSituation& situation, Time now) 
   const bool about_to_meet =
       surroundings_.IsAboutToMeet(situation.odom_from_base, velocity, meeting_.within_s());
   stands_for_comer_ = meeting_.Stands(about_to_meet, now);
+  if (stands_for_comer_) follower_.Waits();
   return stands_for_comer_;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace priamos::robot {
 namespace {
@@ -16,6 +18,7 @@ constexpr double kBackSpeed_m_s = 0.2, kBackEnd_m = 0.03, kHeldBack_s = 3;
 // So often a base goes back before one dead end; beyond it by so much the next one begins.
 constexpr int kMostBackOffs = 3;
 constexpr double kBeyond_m = 0.7;
+constexpr double kHeard_m = 2;  ///< nearer to a base what is there is heard
 
 struct Begin {
   Pose2 start;
@@ -41,6 +44,20 @@ Begin WithoutPassedPoint(const Path& path, const Pose2& pose) {
   begin.path.points.erase(begin.path.points.begin());
   if (!begin.path.leeway.empty()) begin.path.leeway.erase(begin.path.leeway.begin());
   return begin;
+}
+
+/// Places [m] just before a base that stands in a dead end, across the direction of its path: no way leads
+/// there, also when nobody hears any more what closes it.
+std::vector<Eigen::Vector2d> BeforeBase(const Eigen::Vector2d& direction, const Pose2& base,
+                                        const Footprint& footprint) {
+  constexpr double kAhead_m = 0.05, kBeside_m = 0.3;
+  const Eigen::Vector2d along = direction.normalized(), left(-along.y(), along.x());
+  const Eigen::Vector2d seen = base.rotation().transpose() * along;
+  const double front_m = seen.cwiseAbs().dot(footprint.Size() / 2) + kAhead_m;
+  std::vector<Eigen::Vector2d> places;
+  for (const double side : {-1.0, 0.0, 1.0})
+    places.emplace_back(base.translation() + front_m * along + side * kBeside_m * left);
+  return places;
 }
 
 }  // namespace
@@ -78,18 +95,44 @@ void PathFollower::Realign(const Path& path, const Pose2& start) {
   s_ = 0;
 }
 
-void PathFollower::Avoid(std::span<const Eigen::Vector2d> things, Time now) {
-  if (!shape_ || (searched_ && now - *searched_ < FromSeconds(config_.detour.replan_s))) return;
-  searched_ = now;
+void PathFollower::Avoid(std::span<const Eigen::Vector2d> heard, Time now) {
+  if (!LooksAround(now)) return;
   const PathPlace here = Place();
+  if (!seeks_) searched_ = now;
   if (back_off_) return EndBackOff(here, now);
+  const std::vector<Eigen::Vector2d> things = WithKnown(heard);
+  if (seeks_) return SeekOtherWay(here, things);
   driven_.Note(here);
   const Things taken = here.s < smaller_to_m_ ? Things::kSmaller : Things::kAsHeard;
-  const auto detour = FindDetour(config_.detour, footprint_, *shape_, here, things, detour_, taken);
+  const auto detour = FindDetour(BeyondDeadEnds(here), footprint_, *shape_, here, things, detour_, taken);
   if (detour) detour_ = *detour;
   // Who takes things as smaller than they are heard may find out that they are not.
   const bool leads_on = detour && detour->leads_on() && taken == Things::kAsHeard;
-  if (IsInDeadEnd(here, leads_on, now)) TakeOtherWay(here, things, taken, now);
+  if (!IsInDeadEnd(here, leads_on, now)) return;
+  stands_ = Stand{here, now};
+  if (back_offs_ < kMostBackOffs)
+    seeks_ = Things::kAsHeard;
+  else
+    ForgetClosed();
+}
+
+/// What is heard; what was known in the last dead end, where it is too far away now to be heard; and what
+/// closes dead ends.
+std::vector<Eigen::Vector2d> PathFollower::WithKnown(std::span<const Eigen::Vector2d> things) const {
+  std::vector<Eigen::Vector2d> all(things.begin(), things.end());
+  std::copy_if(known_.begin(), known_.end(), std::back_inserter(all), [&](const Eigen::Vector2d& thing) {
+    return (thing - ahead_.translation()).norm() > kHeard_m;
+  });
+  all.insert(all.end(), closed_.begin(), closed_.end());
+  return all;
+}
+
+/// A way that would end in a known dead end is to be found out where it begins.
+DetourConfig PathFollower::BeyondDeadEnds(const PathPlace& here) const {
+  DetourConfig config = config_.detour;
+  if (!closed_.empty() && here.s < deepest_m_)
+    config.horizon_m = std::max(config.horizon_m, deepest_m_ + kBeyond_m - here.s);
+  return config;
 }
 
 /// Whether the base has stood on a line that may be left, before what closes it, and may go back once more.
@@ -97,7 +140,8 @@ bool PathFollower::IsInDeadEnd(const PathPlace& here, bool leads_on, Time now) {
   if (here.s > deepest_m_ + kBeyond_m) back_offs_ = 0;
   const Leeway leeway = shape_->LeewayAt(here.s);
   const bool may_leave = (leeway.any() && !leeway.narrow()) || std::abs(here.offset_m) > kStays_m;
-  const bool looks_for_one = !leads_on && !arrived_ && may_leave && back_offs_ < kMostBackOffs;
+  const bool may_go_back = back_offs_ < kMostBackOffs || !closed_.empty();
+  const bool looks_for_one = !leads_on && !arrived_ && may_leave && may_go_back;
   if (!looks_for_one) stands_.reset();
   return looks_for_one && StandsFor(here, now) >= FromSeconds(kStays_s);
 }
@@ -109,26 +153,47 @@ Duration PathFollower::StandsFor(const PathPlace& here, Time now) {
   return now - stands_->since;
 }
 
-void PathFollower::TakeOtherWay(const PathPlace& here, std::span<const Eigen::Vector2d> things, Things tried,
-                                Time now) {
-  const auto other = FindOtherWay(config_.detour, footprint_, *shape_, here, things, driven_, tried);
-  stands_ = Stand{here, now};
-  if (!other) return;
+/// One search at a time: two would take too long for a step. Where none leads on, what was closed may be free
+/// by now.
+void PathFollower::SeekOtherWay(const PathPlace& here, std::span<const Eigen::Vector2d> things) {
+  const Things taken = *std::exchange(seeks_, std::nullopt);
+  const bool smaller = taken == Things::kSmaller, also_here = smaller && here.s >= smaller_to_m_;
+  const auto other =
+      FindOtherWay(config_.detour, footprint_, *shape_, here, things, driven_, taken, also_here);
+  if (other) return TakeOtherWay(*other, here, things);
+  if (!smaller)
+    seeks_ = Things::kSmaller;
+  else
+    ForgetClosed();
+}
+
+void PathFollower::TakeOtherWay(const OtherWay& other, const PathPlace& here,
+                                std::span<const Eigen::Vector2d> things) {
   ++back_offs_;
   deepest_m_ = std::max(deepest_m_, here.s);
-  smaller_to_m_ = other->taken == Things::kSmaller ? here.s + kBeyond_m : -1;
-  detour_ = other->onward;
-  if (other->back_to_m >= here.s) return;
-  detour_ = other->back;
+  smaller_to_m_ = other.taken == Things::kSmaller ? here.s + kBeyond_m : -1;
+  detour_ = other.onward;
+  if (other.back_to_m > here.s - kBackEnd_m) return;
+  detour_ = other.back;
   back_off_ = other;
+  known_.assign(things.begin(), things.end() - static_cast<std::ptrdiff_t>(closed_.size()));
+  const auto before = BeforeBase(shape_->At(here.s).direction, ahead_, footprint_);
+  closed_.insert(closed_.end(), before.begin(), before.end());
+}
+
+void PathFollower::ForgetClosed() {
+  closed_.clear();
+  known_.clear();
 }
 
 void PathFollower::ForgetDeadEnds() {
   driven_.Clear();
   stands_.reset();
+  seeks_.reset();
   back_off_.reset();
   smaller_to_m_ = -1;
   deepest_m_ = 0;
+  ForgetClosed();
   back_offs_ = 0;
 }
 

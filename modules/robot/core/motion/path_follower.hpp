@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "common/archive.hpp"
 #include "common/geometry.hpp"
@@ -60,6 +61,12 @@ class PathFollower {
   /// and goes by it. A way that was found stays until there is a better one. Where none leads on and the base
   /// has stood for a while it goes back over what it has just driven, to where another one branches off.
   void Avoid(std::span<const Eigen::Vector2d> things, Time now);
+  /// Tells that the base stands for somebody who comes, and not before what closes its way.
+  void Waits() { stands_.reset(); }
+  /// Whether Avoid will look now, so that it needs to be told what is there.
+  bool LooksAround(Time now) const {
+    return shape_ && (seeks_ || !searched_ || now - *searched_ >= FromSeconds(config_.detour.replan_s));
+  }
   /// Changes the fastest speeds, also on the path that is being driven.
   void LimitSpeeds(const PathShapeConfig& limits);
   /// Drops the path; Step then returns a velocity of 0.
@@ -86,8 +93,12 @@ class PathFollower {
 
  private:
   bool IsAtGoal(const Pose2& pose) const;
-  void TakeOtherWay(const PathPlace& here, std::span<const Eigen::Vector2d> things, Things tried, Time now);
+  void SeekOtherWay(const PathPlace& here, std::span<const Eigen::Vector2d> things);
+  void TakeOtherWay(const OtherWay& other, const PathPlace& here, std::span<const Eigen::Vector2d> things);
   bool IsInDeadEnd(const PathPlace& here, bool leads_on, Time now);
+  DetourConfig BeyondDeadEnds(const PathPlace& here) const;
+  std::vector<Eigen::Vector2d> WithKnown(std::span<const Eigen::Vector2d> things) const;
+  void ForgetClosed();
   void ForgetDeadEnds();
   Duration StandsFor(const PathPlace& here, Time now);
   void EndBackOff(const PathPlace& here, Time now);
@@ -109,13 +120,16 @@ class PathFollower {
   };
   DrivenWay driven_;
   std::optional<Stand> stands_;
+  std::optional<Things> seeks_;       ///< another way is looked for in the next step, things taken so
   std::optional<OtherWay> back_off_;  ///< while the base goes back
   double smaller_to_m_ = -1;  ///< up to this arc length things are taken as smaller than they are heard
   double deepest_m_ = 0;      ///< arc length of the farthest dead end
-  int back_offs_ = 0;         ///< before that one
-  Pose2 ahead_;               ///< where the base will be when the wheels obey
-  double s_ = 0;              ///< arc length of the reference point on the path [m]
-  double speed_ = 0;          ///< last wanted ds/dt [m/s]
+  std::vector<Eigen::Vector2d> closed_;  ///< before the dead ends, map frame [m]
+  std::vector<Eigen::Vector2d> known_;   ///< things that were known in the newest of them, likewise
+  int back_offs_ = 0;                    ///< before that one
+  Pose2 ahead_;                          ///< where the base will be when the wheels obey
+  double s_ = 0;                         ///< arc length of the reference point on the path [m]
+  double speed_ = 0;                     ///< last wanted ds/dt [m/s]
   bool arrived_ = false;
 };
 

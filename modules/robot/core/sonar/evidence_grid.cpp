@@ -58,20 +58,24 @@ void EvidenceGrid::Add(const Pose2& odom_from_sonar, double range_m, Time now) {
     low = low.cwiseMin(end);
     high = high.cwiseMax(end);
   }
-  const Pose2 sonar_from_odom = odom_from_sonar.Inverse();
+  const Eigen::Isometry2d sonar_from_odom =
+      (Eigen::Translation2d(odom_from_sonar.translation()) * Eigen::Rotation2Dd(odom_from_sonar.yaw))
+          .inverse();
+  const Echo echo{sonar_from_odom, range_m, std::tan(Radians(config_.half_beam_deg)),
+                  std::tan(Radians(config_.through_deg))};
   for (int y = CellOf(low.y()); y <= CellOf(high.y()); ++y)
-    for (int x = CellOf(low.x()); x <= CellOf(high.x()); ++x) Weigh(x, y, sonar_from_odom, range_m, now);
+    for (int x = CellOf(low.x()); x <= CellOf(high.x()); ++x) Weigh(x, y, echo, now);
 }
 
-void EvidenceGrid::Weigh(int x, int y, const Pose2& sonar_from_odom, double range_m, Time now) {
-  const Eigen::Vector2d seen = sonar_from_odom * Centre(x, y);
-  const double distance_m = seen.norm(), bearing = std::abs(std::atan2(seen.y(), seen.x()));
-  if (distance_m > config_.reach_m || bearing > Radians(config_.half_beam_deg)) return;
+void EvidenceGrid::Weigh(int x, int y, const Echo& echo, Time now) {
+  const Eigen::Vector2d seen = echo.sonar_from_odom * Centre(x, y);
+  const double distance_m = seen.norm(), beside_m = std::abs(seen.y());
+  if (distance_m > config_.reach_m || beside_m > echo.beam * seen.x()) return;
   double change = 0;
-  if (std::abs(distance_m - range_m) <= kThick_m) {
-    const double arc_m = 2 * Radians(config_.half_beam_deg) * range_m;
+  if (std::abs(distance_m - echo.range_m) <= kThick_m) {
+    const double arc_m = 2 * Radians(config_.half_beam_deg) * echo.range_m;
     change = config_.hit * std::min(1.0, config_.sure_arc_m / arc_m);
-  } else if (distance_m < range_m - kBefore_m && bearing <= Radians(config_.through_deg)) {
+  } else if (distance_m < echo.range_m - kBefore_m && beside_m <= echo.through * seen.x()) {
     change = -config_.miss;
   }
   if (change == 0) return;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "common/archive.hpp"
@@ -44,8 +45,13 @@ class EvidenceGrid {
     double log_odds = 0;
     Time renewed{};
   };
+  /// An echo, and the slopes of the edges of what it speaks for and of what it clears.
+  struct Echo {
+    Eigen::Isometry2d sonar_from_odom;
+    double range_m = 0, beam = 0, through = 0;
+  };
   Cell& At(int x, int y);
-  void Weigh(int x, int y, const Pose2& sonar_from_odom, double range_m, Time now);
+  void Weigh(int x, int y, const Echo& echo, Time now);
 
   EvidenceGridConfig config_;
   std::vector<Cell> cells_;

@@ -14,6 +14,7 @@ constexpr double kForgets = 0.8;
 constexpr double kSlant = 2;    ///< how far a face changes its distance along an axis, per distance across
 constexpr double kKnown = 2.5;  ///< the residual may be so much larger
 constexpr double kStands_m_s = 0.1, kStoodWithin_m = 0.2;
+constexpr double kWalks = 0.7;    ///< of the way that the slowest mover goes shows that it goes
 constexpr double kApart_m = 0.1;  ///< of the places that are kept free
 
 }  // namespace
@@ -27,6 +28,8 @@ void MoverConfig::Describe(Archive& a) {
   a.Number("gate_m", gate_m, {"m", 0.05, 1, "the next echo lies so near to where it is expected"});
   a.Number("lost_s", lost_s, {"s", 0.2, 30, "without an echo a mover is forgotten after this"});
   a.Number("standing_s", standing_s, {"s", 1, 600, "having stood for so long it is an ordinary thing"});
+  a.Number("walks_s", walks_s,
+           {"s", 0.2, 600, "who has not gone on for so long since it was found was none"});
   a.Number("horizon_s", horizon_s, {"s", 0, 5, "what it walks over in this time is kept free"});
   a.Number("body_m", body_m, {"m", 0, 1, "feet and shoulders reach so far beyond the echo"});
 }
@@ -125,13 +128,26 @@ void MoverWatch::Follow(const std::vector<Eigen::Vector2d>& echoes, Time now) {
     if (nearest == echoes.end() || distance(*nearest) > config_.gate_m) continue;
     mover.at = *nearest;
     mover.seen = now;
+    NoteWalk(mover, now);
     if ((mover.at - mover.stood_at).norm() < kStoodWithin_m) continue;
     mover.stood_at = mover.at;
     mover.stood = now;
   }
-  std::erase_if(movers_, [&](const Mover& mover) {
-    return Seconds(now - mover.seen) > config_.lost_s || Seconds(now - mover.stood) > config_.standing_s;
-  });
+  std::erase_if(movers_, [&](const Mover& mover) { return IsNone(mover, now); });
+}
+
+/// A beam that the base carries from what is behind a thing to its edge, or back and forth between the two,
+/// hears something come as well, but that gets nowhere.
+void MoverWatch::NoteWalk(Mover& mover, Time now) const {
+  const double went_m = (mover.at - mover.found_at).dot(mover.heading);
+  if (Seconds(now - mover.found) <= config_.walks_s && went_m > kWalks * config_.least_m_s * config_.walks_s)
+    mover.walks = true;
+}
+
+/// Whether it is a mover no more, or never was.
+bool MoverWatch::IsNone(const Mover& mover, Time now) const {
+  if (!mover.walks && Seconds(now - mover.found) > config_.walks_s) return true;
+  return Seconds(now - mover.seen) > config_.lost_s || Seconds(now - mover.stood) > config_.standing_s;
 }
 
 void MoverWatch::Found(const Coming& coming, Time now) {
@@ -140,7 +156,7 @@ void MoverWatch::Found(const Coming& coming, Time now) {
     return (mover.at - coming.at).norm() < 2 * config_.gate_m;
   });
   if (known == movers_.end()) {
-    movers_.push_back({at, velocity, now, at, now, beside});
+    movers_.push_back({at, velocity, now, at, now, beside, at, velocity.normalized(), now});
     return;
   }
   // Of two sensors that hear it the nearer place counts, and the faster motion.

@@ -24,6 +24,7 @@ struct MoverConfig {
   double gate_m = 0.35;      ///< a mover's next echo lies so near to where it is expected
   double lost_s = 1;         ///< without an echo it is forgotten after this ...
   double standing_s = 90;    ///< ... and counts as an ordinary thing when it has stood for so long
+  double walks_s = 1;        ///< who has not come nearer for so long since it was found was none
   double horizon_s = 1.2;    ///< the strip before it, which it will walk over in this time, is not entered
   double body_m = 0.28;      ///< so far feet and shoulders reach beyond what the sonars hear of the legs
 
@@ -39,7 +40,10 @@ struct Mover {
   Time seen{};
   Eigen::Vector2d stood_at{0, 0};  ///< where it has been since `stood`
   Time stood{};
-  bool beside = false;  ///< it was never heard ahead
+  bool beside = false;                            ///< it was never heard ahead
+  Eigen::Vector2d found_at{0, 0}, heading{0, 0};  ///< where it was found, and where it was going
+  Time found{};
+  bool walks = false;  ///< it went on since: it is no edge that a beam met
 };
 
 /// Finds what comes towards the base, a person above all, by successive echoes. A sonar tells the distance:
@@ -82,6 +86,8 @@ class MoverWatch {
   bool Keep(std::deque<Sample>& samples, Time now, const Pose2& odom_from_sonar, double range_m) const;
   std::optional<Coming> ComingIn(const std::deque<Sample>& samples, const Pose2& odom_from_sonar) const;
   void Follow(const std::vector<Eigen::Vector2d>& echoes, Time now);
+  void NoteWalk(Mover& mover, Time now) const;
+  bool IsNone(const Mover& mover, Time now) const;
   void Found(const Coming& coming, Time now);
 
   MoverConfig config_;

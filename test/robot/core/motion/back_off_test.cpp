@@ -57,19 +57,39 @@ TEST(BackOff, GoesBackOverNothingThatWasNotDriven) {
   EXPECT_FALSE(FindOtherWay({}, {}, ShapeAhead(), {1.92, 0}, Pocket(), DrivenWay()));
 }
 
+TEST(BackOff, GoesAsFarBackAsAnotherWayIsLongerAndNoFarther) {
+  // The same pocket, 2 m deeper: the way beside it branches off before it.
+  std::vector<Eigen::Vector2d> deep = Pocket();
+  AddLine({1.4, 0.5}, {4.6, 0.5}, deep);
+  AddLine({1.4, -0.5}, {4.6, -0.5}, deep);
+  AddLine({4.6, 0.5}, {4.6, -0.5}, deep);
+  std::erase_if(
+      deep, [](const Eigen::Vector2d& p) { return std::abs(p.x() - 2.6) < 0.01 && std::abs(p.y()) < 0.45; });
+  const PathPlace here{3.9, 0};
+  const PathShape shape(PathShapeConfig{}, {},
+                        {.id = 1, .speed_m_s = 0.3, .points = {{8, 0, 0}}, .leeway = {kAside}});
+  const auto other = FindOtherWay({}, {}, shape, here, deep, DrivenTo(here.s));
+  ASSERT_TRUE(other);
+  EXPECT_LT(other->back_to_m, 0.95);
+  EXPECT_GT(other->back_to_m, 0.05) << "not to where it began";
+  EXPECT_NEAR(other->back.At(2.5), 0, 1e-9) << "over what it drove";
+  EXPECT_GT(other->onward.At(4), 0.85);
+}
+
 TEST(BackOff, TakesThingsAsSmallerOnlyWhereNoOtherWayLeadsOn) {
   // A gap of 0.74 m in a wall: 8 cm less than a base with its margins needs.
   std::vector<Eigen::Vector2d> wall;
   AddLine({1.4, 0.37}, {1.4, 2.5}, wall);
   AddLine({1.4, -0.37}, {1.4, -2.5}, wall);
   const PathPlace here{0.72, 0};
-  const auto other = FindOtherWay({}, {}, ShapeAhead(), here, wall, DrivenTo(here.s));
+  EXPECT_FALSE(FindOtherWay({}, {}, ShapeAhead(), here, wall, DrivenTo(here.s)));
+  const auto other = FindOtherWay({}, {}, ShapeAhead(), here, wall, DrivenTo(here.s), Things::kSmaller, true);
   ASSERT_TRUE(other);
   EXPECT_EQ(other->taken, Things::kSmaller);
-  EXPECT_EQ(other->back_to_m, here.s);
+  EXPECT_NEAR(other->back_to_m, here.s, 1e-9);
   // What is heard as 20 cm too narrow is closed.
   for (Eigen::Vector2d& point : wall) point.y() -= point.y() > 0 ? 0.1 : -0.1;
-  EXPECT_FALSE(FindOtherWay({}, {}, ShapeAhead(), here, wall, DrivenTo(here.s)));
+  EXPECT_FALSE(FindOtherWay({}, {}, ShapeAhead(), here, wall, DrivenTo(here.s), Things::kSmaller, true));
 }
 
 TEST(BackOff, KnowsWhereItDroveBetweenTwoNotesButNotBeyond) {
@@ -134,8 +154,30 @@ TEST(BackOff, ABaseThatWasToldOfAPocketTooLateComesOutOfItAndTurnsAside) {
     pose = Moved(pose, follower.Step(pose, {}, 0, kStep_s).twist, kStep_s, things);
   }
   EXPECT_LT(farthest_back_m, 1.0);
-  EXPECT_LT(pose.x, 1.0) << "it does not go in again";
-  EXPECT_GT(pose.y, 0.05) << "it turns to the free side, where this rig stops it at the corner";
+  EXPECT_GT(pose.x, 5.9) << "it arrives on the free side, and does not go in again";
+}
+
+TEST(BackOff, ABaseDoesNotGoIntoADeadEndAgainThatItHearsNoMore) {
+  // What closes the pocket is heard from inside it only.
+  std::vector<Eigen::Vector2d> open = Pocket();
+  std::erase_if(open, [](const Eigen::Vector2d& p) { return p.x() > 2.5 && std::abs(p.y()) < 0.49; });
+  constexpr double kStep_s = 0.02;
+  PathFollower follower{PathFollowerConfig{}};
+  follower.Follow(Ahead(), {});
+  Pose2 pose;
+  Time now = FromUtime(1'000'000);
+  int entered = 0;
+  bool inside = false;
+  for (double t = 0; t < 90; t += kStep_s, now += FromSeconds(kStep_s)) {
+    const bool was_inside = inside;
+    inside = pose.x > 1.3 && pose.y < 0.5;
+    entered += inside && !was_inside;
+    const auto things = inside ? Pocket() : open;
+    follower.Avoid(things, now);
+    pose = Moved(pose, follower.Step(pose, {}, 0, kStep_s).twist, kStep_s, Pocket());
+  }
+  EXPECT_EQ(entered, 1);
+  EXPECT_GT(pose.x, 5.5) << "it arrives beside the pocket";
 }
 
 TEST(BackOff, BeforeAWallItStandsAndDoesNotGoToAndFro) {

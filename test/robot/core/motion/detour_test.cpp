@@ -154,6 +154,17 @@ TEST_F(DetourTest, FromBesideItsEndItGoesBackToIt) {
   }
 }
 
+TEST_F(DetourTest, GoesBackToItsEndAlsoPastAThingThatIsNear) {
+  // A post 6 cm behind the base at the end of its path, and so all the way there from beside it.
+  const PathShape path = Straight(kWide);
+  std::vector<Eigen::Vector2d> post;
+  for (double y = 0.2; y < 0.5; y += 0.05) post.emplace_back(4 - 0.475 - 0.06, y);
+  const auto detour = Find(path, post, {4, 0.6}, Detour(3, 0.5, {0.6, 0.6, 0.6}));
+  ASSERT_TRUE(detour);
+  EXPECT_TRUE(detour->leads_on());
+  EXPECT_NEAR(detour->At(4), 0, 0.06);
+}
+
 TEST_F(DetourTest, BeginsWhereTheBaseIsAndNotInTheMiddleOfALane) {
   const PathShape path = Straight(kWide);
   const auto detour =

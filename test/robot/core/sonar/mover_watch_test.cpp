@@ -103,6 +103,18 @@ TEST_F(MoverWatchTest, ASlantedFaceThatABeamIsCarriedAcrossIsNoMotion) {
   EXPECT_THAT(dut_.movers(), IsEmpty());
 }
 
+TEST_F(MoverWatchTest, WhatWasHeardToComeAndGetsNoFartherWasAnEdge) {
+  // Half a second of an edge that a beam meets, and then it stands: no strip is kept free before it for long.
+  for (int i = 0; i < 6; ++i) Hear(1.6 - 0.06 * i);
+  ASSERT_THAT(dut_.movers(), SizeIs(1));
+  for (int i = 0; i < 11; ++i) Hear(1.3);
+  EXPECT_THAT(dut_.movers(), IsEmpty());
+  // Somebody who goes on, as slowly as anybody, is one, and stays one when he stops.
+  Come(3, 0.5, 0, 20);
+  for (int i = 0; i < 30; ++i) Hear(3 - 0.5 * 1.9);
+  EXPECT_THAT(dut_.movers(), SizeIs(1));
+}
+
 TEST_F(MoverWatchTest, WhoLeavesDoesNotCome) {
   Come(1, -1.0, 0, 20);
   EXPECT_THAT(dut_.movers(), IsEmpty());
