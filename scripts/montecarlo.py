@@ -51,7 +51,7 @@ def generated(options, seed):
     kind = KINDS[seed % (len(KINDS) - 1)] if options.generate == "any" else options.generate
     folder = pathlib.Path(options.into) / f"seed-{seed}"
     done = subprocess.run([options.program, "world", "generate", "--kind", kind, "--seed", str(seed), "--into", folder,
-                           "--deployment", options.deployment, "--explore" if options.explore else "--follow" if options.follow else "--there-and-back"], capture_output=True, text=True)
+                           "--deployment", options.deployment, "--force", "--explore" if options.explore else "--follow" if options.follow else "--there-and-back"], capture_output=True, text=True)
     if done.returncode != 0:
         refuse(f"seed {seed}: {done.stderr.strip()}")
     return f"{folder}/", f"{kind}-{seed}"

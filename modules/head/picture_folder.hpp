@@ -20,10 +20,9 @@ class PictureFolder {
   bool Has(const FrameNotice& frame) const;
   /// The picture of a notice, as it was kept; else the reason why there is none.
   Outcome<GreyImage> Read(const FrameNotice& frame) const;
-
- private:
   std::filesystem::path FileOf(const FrameNotice& frame) const;
 
+ private:
   std::filesystem::path folder_;
 };
 

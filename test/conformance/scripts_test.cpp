@@ -43,6 +43,11 @@ class ScriptsTest : public ::testing::Test {
   }
   void Program(const std::string& name, const std::string& body) { Write(folder_ / "bin" / name, body); }
   void Script(const std::string& name, const std::string& body) { Write(clone_ / "scripts" / name, body); }
+  void Scenario(const std::string& name) {
+    const fs::path scenarios = clone_ / "config/sim/scenarios";
+    fs::create_directories(scenarios);
+    Write(scenarios / (name + ".toml"), "");
+  }
   /// Whoever runs the tests may have chosen a preset: the clone's scripts know nothing of it.
   ShellAnswer Run(const std::string& command) const {
     return RunShell("unset PRIAMOS_PRESET; cd '" + clone_.string() + "' && PATH='" +
@@ -182,6 +187,11 @@ TEST_F(ScriptsTest, AWrongWordIsNamedAndNothingIsDone) {
                                           {"scripts/in-private-network -x", "-x"},
                                           {"scripts/in-private-network", ""},
                                           {"scripts/in-bare-system -x", "-x"},
+                                          {"scripts/demo --nonsense", "--nonsense"},
+                                          {"scripts/demo --seed abc", "abc"},
+                                          {"scripts/demo --ttl=x", "x"},
+                                          {"scripts/demo --deployment no/where", "no/where"},
+                                          {"scripts/demo --interactive --elsewhere", "--elsewhere"},
                                           {"scripts/record-run --seed", ""},
                                           {"scripts/record-run --seed one", "one"},
                                           {"scripts/record-run --into nowhere", "nowhere"}}) {
@@ -189,6 +199,17 @@ TEST_F(ScriptsTest, AWrongWordIsNamedAndNothingIsDone) {
     EXPECT_EQ(answer.exit_code, 2) << command << ": " << answer.text;
     EXPECT_THAT(answer.text, HasSubstr("got \"" + got + "\"")) << command;
     EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1) << answer.text;
+  }
+}
+
+TEST_F(ScriptsTest, TheDemoKnowsItsScenariosBeforeItBuilds) {
+  Script("setup", "echo \"installing\"; exit 1");
+  Scenario("door");
+  for (const std::string start : {"scripts/demo", "scripts/demo --interactive"}) {
+    const auto wrong = Run(start + " --scenario dor");
+    EXPECT_EQ(wrong.text, "demo: --scenario: expected one of door, got \"dor\"\n");
+    EXPECT_EQ(wrong.exit_code, 2);
+    EXPECT_THAT(Run(start + " --scenario door --seed 3").text, HasSubstr("installing"));
   }
 }
 

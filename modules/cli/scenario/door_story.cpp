@@ -81,7 +81,9 @@ bool DoorStory::Done(Time now) const {
 
 std::string DoorStory::Reason() const {
   if (!ordered_) return fmt::format("no sign of life from {}", alive_.Missing());
-  if (!ended_) return fmt::format("time limit of {:.0f} s reached while: {}", scenario_.time_limit_s, text_);
+  if (!ended_)
+    return fmt::format("time limit of {:.0f} s reached while: {}", scenario_.time_limit_s,
+                       text_.empty() ? "waiting for an answer of the planner" : text_);
   return text_;
 }
 

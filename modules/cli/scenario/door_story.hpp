@@ -24,6 +24,7 @@ class DoorStory : public ScenarioStory {
   static constexpr std::string_view kSummary = "the planner passes it";
   static constexpr bool kMovesMouse = false;
   static constexpr bool kSeeksDoor = true;
+  static constexpr bool kNeedsPlanner = true, kNeedsWaypoints = false;
 
   /// The stage's `progress` gets one line per phase and per look.
   explicit DoorStory(const StoryStage& stage);

@@ -14,6 +14,7 @@ class ExploreStory : public OrderStory {
   static constexpr std::string_view kSummary = "the planner has an unknown floor explored";
   static constexpr bool kMovesMouse = false;
   static constexpr bool kSeeksDoor = false;
+  static constexpr bool kNeedsWaypoints = false;
 
   explicit ExploreStory(const StoryStage& stage) : OrderStory(stage) {}
 

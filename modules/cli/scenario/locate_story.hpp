@@ -15,6 +15,7 @@ class LocateStory : public OrderStory {
   static constexpr std::string_view kSummary = "a robot that was carried finds out where it is";
   static constexpr bool kMovesMouse = false;
   static constexpr bool kSeeksDoor = false;
+  static constexpr bool kNeedsWaypoints = false;
 
   explicit LocateStory(const StoryStage& stage)
       : OrderStory(stage), pose_(stage.offboard.Subscribe(channels::kPose)) {}

@@ -49,7 +49,8 @@ bool OrderStory::Done(Time now) const {
 
 std::string OrderStory::Reason() const {
   if (ended_ || !order_) return text_;
-  return fmt::format("time limit of {:.0f} s reached while: {}", scenario_.time_limit_s, text_);
+  return fmt::format("time limit of {:.0f} s reached while: {}", scenario_.time_limit_s,
+                     text_.empty() ? "waiting for an answer of the planner" : text_);
 }
 
 std::optional<double> OrderStory::DistanceFrom(const ScenarioWaypoint& waypoint) const {

@@ -17,6 +17,8 @@ namespace priamos::cli {
 /// alive. What is ordered, and what is a good end, is the derived story's.
 class OrderStory : public ScenarioStory {
  public:
+  static constexpr bool kNeedsPlanner = true, kNeedsWaypoints = true;
+
   void Tick(Time now) override;
   bool Done(Time now) const override;
   bool Started() const override { return order_.has_value(); }

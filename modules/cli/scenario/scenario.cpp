@@ -50,6 +50,27 @@ std::string StoryMeanings() {
                   folder.string(), name, next));
 }
 
+/// What a run would find out after a minute, if at all. A list of processes that is not there is none to
+/// judge.
+void CheckProcesses(const Scenario& scenario, Archive& a) {
+  const auto& all = scenario.processes;
+  const auto is_there = [&](std::string_view module, std::string_view bus, auto end) {
+    return std::any_of(all.begin(), end,
+                       [&](const ScenarioProcess& p) { return p.module == module && p.bus == bus; });
+  };
+  for (auto p = all.begin(); p != all.end(); ++p)
+    if (is_there(p->module, p->bus, p))
+      a.Refuse("process",
+               fmt::format("each module once on a bus, and {} only once on {}", p->module, p->bus));
+  const StoryKind& story = FindStory(scenario.story);
+  if (story.needs_planner && !all.empty() && !is_there("planner", "offboard", all.end()))
+    a.Refuse("process", fmt::format("a planner on the bus offboard, which the story {} gives its orders to",
+                                    scenario.story));
+  if (story.needs_waypoints && scenario.waypoints.empty())
+    a.Refuse("waypoint",
+             fmt::format("[[waypoint]] with x_m and y_m, one at least for the story {}", scenario.story));
+}
+
 }  // namespace
 
 bool IsHostName(std::string_view name) {
@@ -75,6 +96,7 @@ void Scenario::Describe(Archive& a) {
   a.Section("line", line, "the serial line between the two radios");
   a.List("process", processes, "the processes, in order of start");
   a.List("waypoint", waypoints, "where the operator drives; none: he shakes the stick at random");
+  CheckProcesses(*this, a);
 }
 
 Scenario LoadScenario(const std::string& folder, const std::string& name) {

@@ -48,7 +48,9 @@ struct ScenarioWaypoint {
 
   void Describe(Archive& a) {
     a.Number("x_m", x_m, {"m", -100, 100, "map frame"});
+    a.Require("x_m", "a place on the map in m");
     a.Number("y_m", y_m, {"m", -100, 100, "map frame"});
+    a.Require("y_m", "a place on the map in m");
     a.Number("yaw_deg", yaw_deg, {"deg", -180, 180, "heading on the drive there"});
   }
 };

@@ -12,9 +12,9 @@ namespace priamos::cli {
 inline constexpr Duration kAftermath = std::chrono::milliseconds(1500);
 
 /// What a person does in a scenario, and whether it came to a good end. The same in real time and in
-/// lockstep. A story is a class in a file of its own with the constants kName, kSummary, kMovesMouse and
-/// kSeeksDoor (see StoryKind) and a constructor from a StoryStage; the file ends with `template StoryKind
-/// KindOf<MyStory>();`, and story_registry.cpp has a line for the class.
+/// lockstep. A story is a class in a file of its own with the constants kName, kSummary, kMovesMouse,
+/// kSeeksDoor, kNeedsPlanner and kNeedsWaypoints (see StoryKind) and a constructor from a StoryStage; the
+/// file ends with `template StoryKind KindOf<MyStory>();`, and story_registry.cpp has a line for the class.
 class ScenarioStory {
  public:
   virtual ~ScenarioStory() = default;
@@ -32,7 +32,12 @@ class ScenarioStory {
 
 template <class Story>
 StoryKind KindOf() {
-  return {Story::kName, Story::kSummary, Story::kMovesMouse, Story::kSeeksDoor,
+  return {Story::kName,
+          Story::kSummary,
+          Story::kMovesMouse,
+          Story::kSeeksDoor,
+          Story::kNeedsPlanner,
+          Story::kNeedsWaypoints,
           [](const StoryStage& stage) -> std::unique_ptr<ScenarioStory> {
             return std::make_unique<Story>(stage);
           }};

@@ -33,6 +33,8 @@ struct StoryKind {
   std::string_view summary;  ///< what the person does, in a few words
   bool moves_mouse;          ///< needs StoryStage::open_mouse
   bool seeks_door;           ///< needs the scenario's door in the ground plan
+  bool needs_planner;        ///< gives its orders to the planner
+  bool needs_waypoints;      ///< its orders lead to the scenario's waypoints: one at least
   std::unique_ptr<ScenarioStory> (*make)(const StoryStage& stage);
 };
 

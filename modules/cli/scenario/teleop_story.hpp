@@ -26,6 +26,7 @@ class TeleopStory : public ScenarioStory {
   static constexpr std::string_view kSummary = "an operator drives";
   static constexpr bool kMovesMouse = true;
   static constexpr bool kSeeksDoor = true;
+  static constexpr bool kNeedsPlanner = false, kNeedsWaypoints = false;
 
   explicit TeleopStory(const StoryStage& stage);
 

@@ -13,8 +13,10 @@
 #include "bus/own_types.hpp"
 #include "bus/wire/lcm_bus.hpp"
 #include "cli/terminal/bus_watch.hpp"
+#include "cli/terminal/link_channels.hpp"
 #include "cli/terminal/silence_watch.hpp"
 #include "cli/terminal/terminal_screen.hpp"
+#include "common/config.hpp"
 #include "lcmtypes/channels.hpp"
 
 namespace priamos::cli {
@@ -22,7 +24,8 @@ namespace {
 
 constexpr int kBarWidth = 24;
 constexpr Duration kStale{3'000'000}, kPeriod{500'000};
-constexpr double kOnceWaits_s = 10;  // two rounds of reports of the largest link
+constexpr Duration kReportsOfAll{4'500'000};  // of the largest link: four, one a second
+constexpr double kOnceWaits_s = 10;           // two rounds of reports of the largest link
 
 std::string Bar(double share) {
   const int full = std::clamp(static_cast<int>(std::lround(share * kBarWidth)), 0, kBarWidth);
@@ -181,14 +184,22 @@ int RunLinkListen(const LinkTopOptions& options) {
   SilenceWatch silence("priamos link listen", options.bus, options.channel, clock.Now(),
                        std::chrono::milliseconds(2500));
   bus.Subscribe(options.channel, [&](std::string_view, std::span<const std::byte>) { silence.Heard(); });
+  auto reports = node.SubscribeAll(channels::kLinkStatus);
   LinkListener listener(node, {options.channel});
+  LinkChannels known;
+  const auto step = [&] {
+    for (const link_status_t& report : reports.Drain()) known.Add(report);
+    if (const auto why = known.WhyNot(options.channel)) throw ConfigError(*why);
+    listener.Step(clock.Now());
+    silence.Step(clock.Now());
+  };
   const Time until = options.seconds > 0 ? clock.Now() + FromSeconds(options.seconds) : Time::max();
   Watch(
-      bus, clock, until, [] { return false; },
-      [&] {
-        listener.Step(clock.Now());
-        silence.Step(clock.Now());
-      });
+      bus, clock, until, [] { return false; }, step);
+  // A short time may end between two reports, before all channels are known.
+  if (!known.empty())
+    Watch(
+        bus, clock, clock.Now() + kReportsOfAll, [&] { return known.complete(); }, step);
   return 0;
 }
 

@@ -55,7 +55,8 @@ struct LinkTopOptions {
 /// Shows the link until Ctrl-C, or with --once as soon as its rates are known. Returns 0, or 1 when --once
 /// heard nothing within 10 s.
 int RunLinkTop(const LinkTopOptions& options);
-/// Asks the other end for an on-request channel for as long as it runs. Returns 0.
+/// Asks the other end for an on-request channel for as long as it runs. Returns 0; throws ConfigError when a
+/// radio on this bus reports that the link has no such channel, or that this end sends it.
 int RunLinkListen(const LinkTopOptions& options);
 
 }  // namespace priamos::cli

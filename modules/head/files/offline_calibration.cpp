@@ -1,6 +1,7 @@
 #include "head/files/offline_calibration.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 
@@ -10,6 +11,7 @@
 #include "head/core/calibration/resection/camera_parameters.hpp"
 #include "head/core/calibration/resection/point_list.hpp"
 #include "head/core/calibration/targets/calibration_quality.hpp"
+#include "head/core/calibration/targets/same_view.hpp"
 #include "head/files/image_file.hpp"
 #include "head/files/model_text.hpp"
 
@@ -173,32 +175,57 @@ double LeaveOneViewOut(const std::vector<std::vector<DiscObservation>>& views, i
   return n > 0 ? sum / static_cast<double>(n) : -1;
 }
 
+constexpr std::size_t kFewestViews = 3;  ///< as CalibrateFromPlanes needs them
+
+/// Photographs that show different views of a target; one that shows a view again counts once.
+struct DifferentViews {
+  std::vector<std::string> names;
+  std::vector<std::vector<DiscObservation>> points;
+
+  void Add(const std::string& name, std::vector<DiscObservation> view, std::string& notes) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (ShowSameView(points[i], view)) {
+        notes += fmt::format("{} shows the same view as {}: both count as one\n", name, names[i]);
+        return;
+      }
+    names.push_back(name);
+    points.push_back(std::move(view));
+  }
+};
+
 /// All photographs by one camera.
 std::string FromFlatTarget(const OfflineCalibration& input, std::string& notes) {
-  std::vector<std::vector<DiscObservation>> views;
+  DifferentViews views;
   int width = 0, height = 0;
   for (const std::string& path : input.photographs) {
     const GreyImage image = ReadImage(path, notes);
-    if (!views.empty() && (image.width != width || image.height != height))
+    if (!views.points.empty() && (image.width != width || image.height != height))
       throw ConfigError(fmt::format("{}: expected {} by {} pixels like the others, got {} by {}", path, width,
                                     height, image.width, image.height));
     width = image.width;
     height = image.height;
-    views.push_back(
-        Must(path, input.chessboard ? FindCorners(image, *input.chessboard) : FindDots(image, input.target)));
+    views.Add(
+        path,
+        Must(path, input.chessboard ? FindCorners(image, *input.chessboard) : FindDots(image, input.target)),
+        notes);
   }
+  if (const auto n = views.names.size(); n < kFewestViews && n < input.photographs.size())
+    throw ConfigError(fmt::format(
+        "{}: expected photographs of at least {} different views of the target, got {} photographs of {}",
+        fmt::join(input.photographs, ", "), kFewestViews, input.photographs.size(), n));
   const LensKnowledge lens = UnknownLens(width, height);
-  const auto cameras = Must(input.photographs.front(), CalibrateFromPlanes(views, width, height, lens));
+  const auto cameras =
+      Must(input.photographs.front(), CalibrateFromPlanes(views.points, width, height, lens));
   double sum = 0;
   ordered_json list = ordered_json::array();
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     sum += cameras[i].mean_error_px / static_cast<double>(cameras.size());
     list.push_back(
-        {{"name", input.photographs[i]}, {"points", cameras[i].discs}, {"F_px", cameras[i].mean_error_px}});
+        {{"name", views.names[i]}, {"points", cameras[i].discs}, {"F_px", cameras[i].mean_error_px}});
   }
   ordered_json json{{"photographs", list},
                     {"F_px", sum},
-                    {"leave_one_photograph_out_F_px", LeaveOneViewOut(views, width, height, lens)}};
+                    {"leave_one_photograph_out_F_px", LeaveOneViewOut(views.points, width, height, lens)}};
   SizeOfImages{width, height}.AddTo(json);
   json.update(LensJson(cameras.front().model));
   return json.dump(2);

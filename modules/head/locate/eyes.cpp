@@ -2,25 +2,38 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "common/config.hpp"
 #include "common/input/regular_file.hpp"
 #include "head/core/edges/equal_contrast.hpp"
 #include "head/files/camera_file.hpp"
 #include "head/files/image_file.hpp"
+#include "head/see/separate_views.hpp"
 
 namespace priamos::head {
 namespace {
 
 constexpr int kSmallest_px = 32;
 
+/// The call itself is wrong then; two cameras that deliver the same image spoil one moment.
+void RefuseNameTwice(const std::vector<std::string>& names) {
+  for (auto name = names.begin(); name != names.end(); ++name)
+    if (std::find(names.begin(), name, *name) != name)
+      throw ConfigError(
+          fmt::format("{}: expected an image of each camera, got the same file twice in one moment", *name));
+}
+
 }  // namespace
 
 std::optional<Refusal> Eyes::Read(const std::vector<std::string>& names) {
+  RefuseNameTwice(names);
   for (const std::string& name : names)
     if (const RegularFile file(name); !file.open())
       return Refusal{fmt::format("{}: expected an image, got {}", name, file.problem())};
   try {
     greys_ = ReadImageFiles(names, kSmallest_px).grey;
+    RefuseSameImage(names, greys_);
   } catch (const ConfigError& error) {
     return Refusal{error.what()};
   }
@@ -51,6 +64,7 @@ std::vector<CameraModel> Eyes::Cameras(const std::vector<std::string>& names) {
   if (cameras.size() != n_)
     throw ConfigError(fmt::format("{}: expected {} cameras, one for each image of a moment, got {}",
                                   names.front(), n_, cameras.size()));
+  RefuseOnePlace(files_, cameras);
   return cameras;
 }
 

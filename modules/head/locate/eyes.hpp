@@ -23,7 +23,7 @@ class Eyes {
       : files_(std::move(files)), are_rectified_(are_rectified), n_(n) {}
 
   /// Reads the images of one moment; why that cannot be done, nullopt if it was. Throws ConfigError for
-  /// cameras that cannot be used.
+  /// cameras that cannot be used (also two at one place), and for a file that is named twice.
   std::optional<Refusal> Read(const std::vector<std::string>& names);
   bool has_seen() const { return !cameras_.empty(); }
 

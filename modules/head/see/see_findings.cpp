@@ -13,6 +13,7 @@
 #include "head/files/image_file.hpp"
 #include "head/files/landmark_file.hpp"
 #include "head/see/see_landmark.hpp"
+#include "head/see/separate_views.hpp"
 
 namespace priamos::head {
 namespace {
@@ -49,18 +50,6 @@ void ReadPhotographs(const SeeOptions& options, SeeFindings& findings) {
   FindEdges(!options.cameras.empty(), findings.photographs);
 }
 
-/// From one place nothing has a distance: a file was given twice, or does not say where its camera stands.
-void RefuseOnePlace(const std::vector<std::string>& files, const std::vector<CameraModel>& cameras) {
-  constexpr double kApart_m = 1e-4;
-  for (std::size_t i = 0; i < cameras.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if ((OpticalCentre(cameras[i]) - OpticalCentre(cameras[j])).norm() < kApart_m)
-        throw std::runtime_error(
-            fmt::format("{}: expected cameras at different places, got two at one; say in projection_matrix "
-                        "where each stands",
-                        fmt::join(files, ", ")));
-}
-
 std::vector<CameraModel> ReadCameras(const SeeOptions& options,
                                      const std::vector<SeenPhotograph>& photographs) {
   if (options.cameras.empty()) return {};
@@ -81,17 +70,6 @@ std::vector<CameraModel> ReadCameras(const SeeOptions& options,
   check_number(cameras.size());
   RefuseOnePlace(options.cameras, cameras);
   return cameras;
-}
-
-/// Two cameras never agree in every pixel; of one image seen twice, chance matches would pass for edges in
-/// space.
-void RefuseSameImage(const std::vector<SeenPhotograph>& photographs) {
-  for (std::size_t i = 0; i < photographs.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (cv::norm(photographs[i].grey, photographs[j].grey, cv::NORM_INF) == 0)
-        throw std::runtime_error(
-            fmt::format("{} and {}: expected an image of each camera, got the same image twice",
-                        photographs[j].file, photographs[i].file));
 }
 
 /// Why a pair cannot be used, without the names of its files; empty if it can be, or shows nothing at all.
@@ -159,7 +137,7 @@ SeeFindings FindAll(const SeeOptions& options) {
     findings.views.back().image = &findings.photographs[i].grey;
   }
   if (findings.cameras.size() > 1) {
-    RefuseSameImage(findings.photographs);
+    RefuseSameImage(options.images, findings.Greys());
     findings.matches = MatchViews(findings);
   }
   if (WantsDoors(options)) findings.doors = FindDoors(options, findings.Greys(), findings.cameras);

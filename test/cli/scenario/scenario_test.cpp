@@ -77,9 +77,9 @@ TEST(ScenarioFile, WhatIsLeftOutKeepsItsDefault) {
 TEST(ScenarioFile, ProcessesAndWaypointsKeepTheirOrder) {
   const Scenario dut = Parsed(
       "[[process]]\nmodule = \"world\"\nbus = \"onboard\"\nconfig = \"world.toml\"\n"
-      "[[process]]\nmodule = \"radio\"\nbus = \"offboard\"\nconfig = \"radio.toml\"\nset = "
+      "[[process]]\nmodule = \"planner\"\nbus = \"offboard\"\nconfig = \"radio.toml\"\nset = "
       "\"side=offboard\"\n"
-      "[[waypoint]]\nx_m = 1.5\n[[waypoint]]\ny_m = -2.0\nyaw_deg = 90.0\n");
+      "[[waypoint]]\nx_m = 1.5\ny_m = 0\n[[waypoint]]\nx_m = 0\ny_m = -2.0\nyaw_deg = 90.0\n");
   ASSERT_EQ(dut.processes.size(), 2u);
   EXPECT_EQ(dut.processes[0].module, "world");
   EXPECT_EQ(dut.processes[1].bus, "offboard");
@@ -101,9 +101,43 @@ TEST(ScenarioFile, ValuesOutsideTheirBoundsAreRefusedWithLineAndKey) {
       {"[[process]]\nmodule = \"wheels\"\n", "module"},
       {"[[process]]\nbus = \"yellow\"\n", "bus"},
       {"[[process]]\nwatchdog_s = 0.4\n", "watchdog_s"},
-      {"[[waypoint]]\nyaw_deg = 181\n", "yaw_deg"}};
+      {"[[waypoint]]\nx_m = 0\ny_m = 0\nyaw_deg = 181\n", "yaw_deg"}};
   for (const auto& [text, place] : wrong)
     EXPECT_THAT(Refusal([&] { Parsed(text); }), HasSubstr(place)) << text;
+}
+
+std::string Process(const std::string& module, const std::string& bus) {
+  return "[[process]]\nmodule = \"" + module + "\"\nbus = \"" + bus + "\"\nconfig = \"x.toml\"\n";
+}
+
+TEST(ScenarioFile, TwoProcessesOfOneRoleAreRefused) {
+  const std::string planner = Process("planner", "offboard"),
+                    radios = Process("radio", "onboard") + Process("radio", "offboard");
+  EXPECT_EQ(Refusal([&] { Parsed(planner + radios); }), "") << "a radio on each bus";
+  EXPECT_THAT(
+      Refusal([&] { Parsed(planner + Process("robot", "onboard") + Process("robot", "onboard")); }),
+      AllOf(HasSubstr("walk.toml:1:process: expected each module once on a bus, and robot only once on "
+                      "onboard")));
+}
+
+TEST(ScenarioFile, AStoryWithoutItsPlannerIsRefused) {
+  const std::string robot = Process("robot", "onboard");
+  const std::string expected = "process: expected a planner on the bus offboard, which the story ";
+  EXPECT_THAT(Refusal([&] { Parsed(robot); }), HasSubstr(expected + "door gives its orders to"));
+  EXPECT_THAT(Refusal([&] { Parsed("story = \"locate\"\n" + robot + Process("planner", "onboard")); }),
+              HasSubstr(expected + "locate"));
+  EXPECT_EQ(Refusal([&] { Parsed("story = \"teleop\"\n" + robot); }), "");
+}
+
+TEST(ScenarioFile, AStoryOfPlacesNeedsOneWithItsCoordinates) {
+  for (const std::string story : {"goto", "patrol", "corridor"}) {
+    const std::string head = "story = \"" + story + "\"\n";
+    EXPECT_THAT(Refusal([&] { Parsed(head); }),
+                HasSubstr("waypoint: expected [[waypoint]] with x_m and y_m"));
+    EXPECT_EQ(Refusal([&] { Parsed(head + "[[waypoint]]\nx_m = 1\ny_m = 2\n"); }), "");
+    EXPECT_THAT(Refusal([&] { Parsed(head + "[[waypoint]]\nx_m = 1\n"); }),
+                HasSubstr("y_m: expected a place on the map in m, got none"));
+  }
 }
 
 TEST(ScenarioFile, AnUnknownKeyIsNamed) {

@@ -55,7 +55,9 @@ TEST(Stories, UnknownNameInAScenarioIsRefusedWithItsPlaceAndTheNearestName) {
 
 TEST(Stories, EveryNameIsTakenByAScenario) {
   for (const StoryKind& kind : Stories())
-    EXPECT_EQ(ParseConfig<Scenario>("walk.toml", "story = \"" + std::string(kind.name) + "\"\n").story,
+    EXPECT_EQ(ParseConfig<Scenario>(
+                  "walk.toml", "story = \"" + std::string(kind.name) + "\"\n[[waypoint]]\nx_m = 1\ny_m = 2\n")
+                  .story,
               kind.name);
 }
 

@@ -5,8 +5,10 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "common/config.hpp"
 #include "test/support/calibration_scene.hpp"
@@ -100,6 +102,31 @@ TEST_F(OfflineCalibrationTest, PhotographsOfTheObjectGiveACameraEach) {
   const json dut = json::parse(CalibrateFromFiles(input).json);
   EXPECT_LT(dut["cameras"][1]["F_px"], 0.03);
   EXPECT_LT(dut["stereo"]["rms_m"], 0.0002);
+}
+
+/// A photograph of the flat target of dots, straight from before.
+cv::Mat DotsAt(int left_px) {
+  cv::Mat image(400, 400, CV_8UC1, cv::Scalar(220));
+  for (int i = 0; i < 36; ++i)
+    cv::circle(image, {left_px + 50 * (i % 6), 70 + 50 * (i / 6)}, 16, cv::Scalar(30), cv::FILLED,
+               cv::LINE_AA);
+  cv::GaussianBlur(image, image, {}, 0.8);
+  return image;
+}
+
+TEST_F(OfflineCalibrationTest, APhotographGivenAgainIsNoOtherView) {
+  OfflineCalibration input;
+  for (const auto& [name, left_px] :
+       std::map<std::string, int>{{"a.png", 70}, {"b.png", 70}, {"c.png", 80}}) {
+    cv::imwrite(folder_ / name, DotsAt(left_px));
+    input.photographs.push_back(folder_ / name);
+  }
+  EXPECT_THAT(ReasonOf(input), HasSubstr("c.png: expected photographs of at least 3 different views of the "
+                                         "target, got 3 photographs of 2"));
+  input.photographs.assign(4, folder_ / "a.png");
+  EXPECT_THAT(ReasonOf(input), HasSubstr("different views of the target, got 4 photographs of 1"));
+  input.photographs.resize(1);
+  EXPECT_THAT(ReasonOf(input), HasSubstr("1 photographs of a flat target, expected at least 3"));
 }
 
 TEST_F(OfflineCalibrationTest, BadListsAreRefusedWithFileAndLine) {

@@ -194,5 +194,42 @@ TEST_F(LocateTest, WhatCannotBeUsedIsNamed) {
   EXPECT_NE(ThrownReason([&] { Run(options); }), "");
 }
 
+/// A camera beside the first, whose projection matrix says where it stands.
+std::string CameraAt(const TemporaryFolder& folder, const std::string& name, double x_m) {
+  std::ofstream(folder / name) << "image_width: 768\nimage_height: 576\ncamera_matrix:\n  rows: 3\n  cols: "
+                                  "3\n  data: [600, 0, 384, 0, 600, 288, 0, 0, 1]\n"
+                                  "projection_matrix:\n  rows: 3\n  cols: 4\n  data: [600, 0, 384, "
+                               << -600 * x_m << ", 0, 600, 288, 0, 0, 0, 1, 0]\n";
+  return folder / name;
+}
+
+TEST_F(LocateTest, CamerasAtOnePlaceAreRefused) {
+  LocateOptions options = Options();
+  options.cameras = {folder_ / "camera.yaml", folder_ / "camera.yaml"};
+  EXPECT_EQ(ThrownReason([&] { Run(options); }),
+            options.cameras[0] + ", " + options.cameras[0] +
+                ": expected cameras at different places, got two at one; say in projection_matrix where each "
+                "stands");
+}
+
+TEST_F(LocateTest, OneImageForTwoCamerasOfAMomentCountsForNone) {
+  LocateOptions options = Options();
+  options.cameras = {CameraAt(folder_, "left.yaml", 0), CameraAt(folder_, "right.yaml", 0.3)};
+  options.images = {Image(0), Image(0)};
+  EXPECT_EQ(ThrownReason([&] { Run(options); }),
+            Image(0) + ": expected an image of each camera, got the same file twice in one moment");
+  std::filesystem::copy_file(Image(0), folder_ / "copy.png");
+  options.images[1] = folder_ / "copy.png";
+  EXPECT_EQ(ThrownReason([&] { Run(options); }),
+            Image(0) + " and " + options.images[1] +
+                ": expected an image of each camera, got the same image twice");
+}
+
+TEST_F(LocateTest, ImagesOfASequenceMayBeAlike) {
+  LocateOptions options = Options();
+  options.images = {Image(0), Image(0)};
+  EXPECT_EQ(Run(options).n_found, 2) << text_;
+}
+
 }  // namespace
 }  // namespace priamos::head

@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <iostream>
 
+#include "bus/log/log_reader.hpp"
 #include "bus/output_comparison.hpp"
 #include "bus/own_types.hpp"
 #include "bus/replay.hpp"
+#include "bus/wire/typed_message.hpp"
 #include "cli/lockstep/factories.hpp"
 #include "cli/options/folder_options.hpp"
 #include "cli/options/path_override.hpp"
@@ -14,6 +16,8 @@
 #include "cli/terminal/replay_verdict.hpp"
 #include "cli/verbs/run/commands.hpp"
 #include "common/config.hpp"
+#include "head/head_messages.hpp"
+#include "head/picture_folder.hpp"
 #include "lcmtypes/channels.hpp"
 
 namespace priamos::cli {
@@ -63,6 +67,27 @@ void Print(const VerifyOptions& options, const bus::Replay& replay, const bus::O
   }
 }
 
+/// Without its pictures a head does nothing that it did. Which of them it used is not known before it runs: a
+/// folder that has some is good.
+void RequirePictures(const VerifyOptions& options, const bus::Schema& schema) {
+  const head::PictureFolder folder(options.pictures);
+  std::string first;
+  int n = 0;
+  for (bus::LogReader reader(options.log); const auto event = reader.Next();) {
+    if (event->channel != channels::kCameraFrame.name) continue;
+    const auto message = bus::DecodeChecked<camera_frame_t>(schema, event->bytes);
+    if (!message) continue;
+    const head::FrameNotice frame = head::FromMessage(*message);
+    if (folder.Has(frame)) return;
+    if (n++ == 0) first = folder.FileOf(frame).string();
+  }
+  if (n > 0)
+    throw std::runtime_error(
+        fmt::format("{}: expected a picture of {}, got none; it is the first of {}, none "
+                    "of which is there",
+                    first, options.log, n));
+}
+
 /// What the module sent then and may send again: a head that is given its pictures takes none.
 std::vector<bus::Output> Comparable(std::vector<bus::Output> recorded, const VerifyOptions& options) {
   if (!options.pictures.empty())
@@ -74,6 +99,7 @@ int Verify(const VerifyOptions& options) {
   if (!options.pictures.empty() && options.module != "head")
     throw std::runtime_error(fmt::format("--pictures: expected with --module head, got {}", options.module));
   const bus::Schema schema = bus::OwnTypes();
+  if (!options.pictures.empty()) RequirePictures(options, schema);
   const ConfigSource source = SourceOf(options);
   bus::Replay replay(FactoryFor(options.module), source, schema, options.log, {source.Folder()});
   std::vector<bus::Output> replayed;

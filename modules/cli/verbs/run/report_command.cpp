@@ -90,6 +90,10 @@ int Report(const ReportOptions& options) {
   if (folders != fs::is_directory(options.b))
     throw std::runtime_error(fmt::format("expected two folders of runs or two logs of one run, got {} and {}",
                                          options.a, options.b));
+  if (std::error_code none; fs::equivalent(options.a, options.b, none))
+    throw std::runtime_error(fmt::format("{} and {}: expected {}, got the same {} twice", options.a,
+                                         options.b, folders ? "two runs" : "the logs of two buses",
+                                         folders ? "folder" : "file"));
   return folders ? Compare(options) : ReportLog(options);
 }
 

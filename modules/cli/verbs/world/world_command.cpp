@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/App.hpp>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -18,10 +19,20 @@ namespace {
 struct GenerateOptions {
   std::string kind = "room", into, deployment = "sim";
   std::uint64_t seed = 1;
-  bool there_and_back = false, follow = false, explore = false, json = false;
+  bool there_and_back = false, follow = false, explore = false, force = false, json = false;
 };
 
+/// Somebody may have changed what was generated.
+void RefuseToReplaceWorld(const GenerateOptions& options) {
+  const auto world =
+      std::filesystem::path(options.into) / fmt::format("worlds/{}-{}.toml", options.kind, options.seed);
+  if (!options.force && std::filesystem::exists(world))
+    throw ConfigError(
+        fmt::format("{}: expected a new world, got one that is there; --force replaces it", world.string()));
+}
+
 int RunGenerate(const GenerateOptions& options) {
+  RefuseToReplaceWorld(options);
   const auto generated = world::Generate(options.kind, options.seed);
   const auto task = options.explore          ? GeneratedTask::kExplore
                     : options.follow         ? GeneratedTask::kCorridor
@@ -78,6 +89,7 @@ void AddGenerate(CLI::App& world, int& exit_code) {
   verb->add_flag("--follow", options->follow,
                  "the robot follows the corridor by sonar to its end; in a room it passes the door");
   verb->add_flag("--explore", options->explore, "the robot explores it without a plan");
+  verb->add_flag("--force", options->force, "replace a world of the same kind and seed that is there");
   AddDeploymentOption(*verb, options->deployment);
   CompleteVerb(*verb, options, RunGenerate, exit_code, "the files' names as JSON");
 }

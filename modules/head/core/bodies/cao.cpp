@@ -132,6 +132,9 @@ class Reader {
     auto corners = Indices(line, 1, limit, what);
     if (static_cast<int>(corners.size()) != n || n < 3)
       Fail(fmt::format("expected a face of {} corners, at least 3, got {}", n, corners.size()));
+    for (auto c = corners.begin(); c != corners.end(); ++c)
+      if (std::find(corners.begin(), c, *c) != c)
+        Fail(fmt::format("expected {} once in a face, got {} twice", what, *c));
     return corners;
   }
 

@@ -61,6 +61,16 @@ TEST(ReplayCommand, ALogWithoutItsMessagesIsRefused) {
             "priamos replay verify: " + log.file() + ": expected messages that planner sent, got none\n");
 }
 
+TEST(ReplayCommand, AFolderWithoutThePicturesOfTheLogIsRefused) {
+  const TemporaryFolder folder;
+  const auto answer =
+      Verify(PRIAMOS_SOURCE_DIR "/logs/recorded/door-onboard.lcmlog", "head", {"--pictures", folder.path()});
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_THAT(answer.err, AllOf(HasSubstr(folder.path()), HasSubstr(".pgm: expected a picture of "),
+                                HasSubstr("none of which is there")));
+  EXPECT_EQ(LinesOf(answer.err).size(), 1u);
+}
+
 TEST(ReplayCommand, OnlyModulesCanBeReplayed) {
   const auto answer = Verify(kOffboard, "plan");
   EXPECT_EQ(answer.exit_code, 2);

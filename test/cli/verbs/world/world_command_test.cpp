@@ -18,9 +18,12 @@ const std::string kSim = std::string(PRIAMOS_SOURCE_DIR) + "/config/sim/";
 
 class WorldCommandTest : public testing::Test {
  protected:
-  PriamosAnswer Generate(const std::string& kind, const std::string& seed) {
-    return Priamos(
-        {"world", "generate", "--kind", kind, "--seed", seed, "--into", into_, "--deployment", kSim});
+  PriamosAnswer Generate(const std::string& kind, const std::string& seed,
+                         std::vector<std::string> more = {}) {
+    std::vector<std::string> words{"world", "generate", "--kind", kind,           "--seed",
+                                   seed,    "--into",   into_,    "--deployment", kSim};
+    words.insert(words.end(), more.begin(), more.end());
+    return Priamos(words);
   }
   TemporaryFolder folder_;
   const std::string into_ = (folder_ / "generated").string();
@@ -62,8 +65,21 @@ TEST_F(WorldCommandTest, ThereAndBackIsADriveThroughTheDoorToAPlaceAndBackToTheF
 TEST_F(WorldCommandTest, TheSameSeedWritesTheSameBytes) {
   Generate("corridor", "2");
   const std::string first = FileContent(into_ + "/worlds/corridor-2.toml");
-  Generate("corridor", "2");
+  Generate("corridor", "2", {"--force"});
   EXPECT_EQ(FileContent(into_ + "/worlds/corridor-2.toml"), first);
+}
+
+TEST_F(WorldCommandTest, AWorldThatIsThereIsReplacedOnlyByForce) {
+  Generate("room", "2");
+  const std::string file = into_ + "/worlds/room-2.toml";
+  std::ofstream(file, std::ios::app) << "# mine\n";
+  const auto answer = Generate("room", "2");
+  EXPECT_EQ(answer.exit_code, 2);
+  EXPECT_EQ(answer.err, "priamos world generate: " + file +
+                            ": expected a new world, got one that is there; --force replaces it\n");
+  EXPECT_THAT(FileContent(file), HasSubstr("# mine"));
+  EXPECT_EQ(Generate("room", "2", {"--force"}).exit_code, 0);
+  EXPECT_THAT(FileContent(file), testing::Not(HasSubstr("# mine")));
 }
 
 TEST_F(WorldCommandTest, AFolderThatHoldsSomethingElseIsRefusedAndKept) {

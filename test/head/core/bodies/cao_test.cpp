@@ -57,6 +57,8 @@ TEST(Cao, EveryMistakeIsNamedWithItsLine) {
               HasSubstr("a.cao:10: expected the number of a point (0 to 2), got 3"));
   EXPECT_THAT(Parse(std::string(kTriangle) + "0\n0\n1\n4 0 1 2\n").reason(),
               HasSubstr("a.cao:10: expected a face of 4 corners"));
+  EXPECT_THAT(Parse(std::string(kTriangle) + "0\n0\n1\n4 0 1 2 1\n").reason(),
+              HasSubstr("a.cao:10: expected the number of a point once in a face, got 1 twice"));
   EXPECT_THAT(Parse(std::string(kTriangle) + "2\n0 1\n1 2\n0\n0\n1\n0 1 2 0.5\n").reason(),
               HasSubstr("cylinders"));
   EXPECT_THAT(Parse("V1\nload(b.cao)\n").reason(), HasSubstr("a.cao:2: expected load(\"file.cao\")"));
