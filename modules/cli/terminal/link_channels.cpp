@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "common/input/quoted.hpp"
@@ -11,7 +12,7 @@
 namespace priamos::cli {
 
 void LinkChannels::Add(const link_status_t& report) {
-  n_all_ = static_cast<std::size_t>(report.all_channels);
+  n_all_ = static_cast<std::size_t>(std::max<int>(0, report.all_channels));
   for (int i = 0; i < report.n_channels; ++i) {
     const link_channel_t& channel = report.channels[static_cast<std::size_t>(i)];
     outgoing_[channel.channel] = channel.outgoing != 0;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "robot/core/base/footprint.hpp"
-#include "robot/core/motion/detour.hpp"
+#include "robot/core/motion/detour_line.hpp"
 #include "robot/core/motion/path_shape.hpp"
 
 namespace priamos::robot {
