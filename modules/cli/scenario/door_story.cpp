@@ -81,10 +81,7 @@ bool DoorStory::Done(Time now) const {
 
 std::string DoorStory::Reason() const {
   if (!ordered_) return fmt::format("no sign of life from {}", alive_.Missing());
-  if (!ended_)
-    return fmt::format("time limit of {:.0f} s reached while: {}", scenario_.time_limit_s,
-                       text_.empty() ? "waiting for an answer of the planner" : text_);
-  return text_;
+  return ended_ ? text_ : TimeLimitReason(scenario_, text_);
 }
 
 template StoryKind KindOf<DoorStory>();

@@ -19,7 +19,6 @@ class ExploreStory : public OrderStory {
   explicit ExploreStory(const StoryStage& stage) : OrderStory(stage) {}
 
  private:
-  bool NeedsWaypoints() const override { return false; }
   void Begin(Time now) override;
   void Follow(Time now) override;
 };

@@ -21,7 +21,6 @@ class LocateStory : public OrderStory {
       : OrderStory(stage), pose_(stage.offboard.Subscribe(channels::kPose)) {}
 
  private:
-  bool NeedsWaypoints() const override { return false; }
   void Begin(Time now) override;
   void Follow(Time now) override;
   void Judge(Time now);

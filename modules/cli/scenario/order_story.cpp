@@ -1,7 +1,5 @@
 #include "cli/scenario/order_story.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <utility>
 
@@ -24,7 +22,8 @@ void OrderStory::Tick(Time now) {
     text_ = "no sign of life from " + alive_.Missing();
     return;
   }
-  if (NeedsWaypoints() && scenario_.waypoints.empty()) return End(now, false, "the scenario has no waypoint");
+  if (FindStory(scenario_.story).needs_waypoints && scenario_.waypoints.empty())
+    return End(now, false, "the scenario has no waypoint");
   if (!order_) Begin(now);
   for (const mission_status_t& status : status_.Drain()) {
     if (const auto text = order_->Hear(status, now)) progress_(now, *text);
@@ -48,9 +47,7 @@ bool OrderStory::Done(Time now) const {
 }
 
 std::string OrderStory::Reason() const {
-  if (ended_ || !order_) return text_;
-  return fmt::format("time limit of {:.0f} s reached while: {}", scenario_.time_limit_s,
-                     text_.empty() ? "waiting for an answer of the planner" : text_);
+  return ended_ || !order_ ? text_ : TimeLimitReason(scenario_, text_);
 }
 
 std::optional<double> OrderStory::DistanceFrom(const ScenarioWaypoint& waypoint) const {

@@ -30,8 +30,6 @@ class OrderStory : public ScenarioStory {
   /// The stage's `progress` gets one line per order and per change of the mission.
   explicit OrderStory(const StoryStage& stage);
 
-  /// Whether its orders lead to the scenario's waypoints: then it fails without one.
-  virtual bool NeedsWaypoints() const { return true; }
   /// All processes are alive: gives the first order.
   virtual void Begin(Time now) = 0;
   /// What the planner reports, after the order has heard it.

@@ -114,4 +114,9 @@ std::string MapFile(const std::string& folder, const Scenario& scenario) {
   return (std::filesystem::path(folder) / scenario.map).string();
 }
 
+std::string TimeLimitReason(const Scenario& scenario, const std::string& doing) {
+  return fmt::format("time limit of {:.0f} s reached while: {}", scenario.time_limit_s,
+                     doing.empty() ? "waiting for an answer of the planner" : doing);
+}
+
 }  // namespace priamos::cli

@@ -86,4 +86,8 @@ Scenario LoadScenario(const std::string& folder, const std::string& name);
 /// The map file of `scenario`.
 std::string MapFile(const std::string& folder, const Scenario& scenario);
 
+/// Why a run failed that its time limit ended. `doing`: what was under way, in the planner's words; empty
+/// before it has said anything.
+std::string TimeLimitReason(const Scenario& scenario, const std::string& doing);
+
 }  // namespace priamos::cli

@@ -9,6 +9,7 @@
 #include "head/core/bodies/contour_pieces.hpp"
 #include "head/core/camera/projection.hpp"
 #include "head/core/landmark/edge_residual.hpp"
+#include "head/core/landmark/prediction.hpp"
 
 namespace priamos::head {
 namespace {
@@ -86,14 +87,6 @@ Normal Measure(const LandmarkModel& seen, const Eigen::Isometry3d& pose, std::sp
     }
   }
   return normal;
-}
-
-Eigen::Isometry3d Moved(Eigen::Isometry3d pose, const Vector6& step) {
-  pose.translation() += step.head<3>();
-  const Eigen::Vector3d turn = step.tail<3>();
-  if (turn.norm() > 0)
-    pose.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * pose.linear();
-  return pose;
 }
 
 }  // namespace

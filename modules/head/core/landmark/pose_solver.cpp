@@ -8,6 +8,7 @@
 #include "head/core/landmark/correlated_least_squares.hpp"
 #include "head/core/landmark/edge_residual.hpp"
 #include "head/core/landmark/left_out.hpp"
+#include "head/core/landmark/prediction.hpp"
 
 namespace priamos::head {
 namespace {
@@ -64,7 +65,7 @@ class Problem {
       // Covariance changes little between the iterations; the last step of Finish takes it where it belongs.
       if (i == 0 && !squares_.SetCovariance(CovarianceOfAll())) return solution;
       if (!squares_.Solve(jacobian_, distance_)) return solution;
-      Apply(free_ * squares_.step());
+      pose_ = Moved(pose_, free_ * squares_.step());
       const double size = squares_.step().norm();
       if (!std::isfinite(size) || size > 2) return solution;
       if (size < 1e-6 || (i > 3 && size < 1e-5 && size > 0.5 * previous_step)) break;
@@ -161,14 +162,6 @@ class Problem {
       covariance(i, i) += residuals_[i].variance;
     }
     return covariance;
-  }
-
-  void Apply(const Vector6& step) {
-    const Eigen::Vector3d turn = step.tail<3>();
-    pose_.translation() += step.head<3>();
-    if (turn.norm() > 0) {
-      pose_.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * pose_.linear();
-    }
   }
 
   void Finish(PoseSolution& solution) {

@@ -1,5 +1,6 @@
 #include "head/core/landmark/prediction.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -12,6 +13,14 @@ Eigen::Matrix<double, 3, 6> PoseJacobian(const Eigen::Isometry3d& base_from_land
   jacobian.leftCols<3>().setIdentity();
   jacobian.rightCols<3>() << 0, r.z(), -r.y(), -r.z(), 0, r.x(), r.y(), -r.x(), 0;
   return jacobian;
+}
+
+Eigen::Isometry3d Moved(Eigen::Isometry3d pose, const Eigen::Matrix<double, 6, 1>& step) {
+  pose.translation() += step.head<3>();
+  const Eigen::Vector3d turn = step.tail<3>();
+  if (turn.norm() > 0)
+    pose.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * pose.linear();
+  return pose;
 }
 
 std::vector<PredictedEdge> PredictEdges(const LandmarkModel& model, const Pose2& base_from_landmark,

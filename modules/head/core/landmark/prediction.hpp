@@ -19,6 +19,9 @@ struct PredictedEdge : ProjectedEdge {
 Eigen::Matrix<double, 3, 6> PoseJacobian(const Eigen::Isometry3d& base_from_landmark,
                                          const Eigen::Vector3d& in_base);
 
+/// `pose` moved by a step of (x, y, z, roll, pitch, yaw), as PoseJacobian has them.
+Eigen::Isometry3d Moved(Eigen::Isometry3d pose, const Eigen::Matrix<double, 6, 1>& step);
+
 /// The edges of `model` visible at `base_from_landmark` (equations 5 and 6), for the search in the image.
 /// `covariance` is that of (x, y, yaw) of base_from_landmark; edges that may be visible under it are kept.
 std::vector<PredictedEdge> PredictEdges(const LandmarkModel& model, const Pose2& base_from_landmark,

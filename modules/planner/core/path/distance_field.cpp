@@ -14,8 +14,6 @@ namespace {
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 /// So much farther than the base needs in any heading an obstacle may still be a reason to keep off it.
 constexpr double kBeyondSurely_m = 1;
-/// A route begins at a place so near to its start; as far as SearchRoute looks for the first one.
-constexpr double kFirst_m = 1.5;
 
 /// From a cell to those beside it, in the order of columns and rows.
 struct Step {

@@ -15,6 +15,8 @@ namespace priamos::planner {
 class DistanceField {
  public:
   static constexpr double kStep_m = 0.1;
+  /// A route begins at a place so near to its start.
+  static constexpr double kFirst_m = 1.5;
 
   /// The cells reach `beyond_m` farther than the obstacles and both ends. A cell counts as closed when the
   /// circle in the footprint would come nearer than `margin_m` to an obstacle there; but those on `lanes` are

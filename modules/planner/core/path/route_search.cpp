@@ -27,7 +27,7 @@ constexpr double kFirst_m = 0.4;
 /// A passage so long to either side of its middle is a corridor.
 constexpr double kCorridor_m = 0.5;
 /// From the start the end of a lane can be the first pose that is so near, and from its end any lattice pose.
-constexpr double kFirstLane_m = 1.5, kBesideLane_m = 0.15;
+constexpr double kFirstLane_m = DistanceField::kFirst_m, kBesideLane_m = 0.15;
 
 constexpr std::array<std::pair<int, int>, 8> kMoves{
     {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
