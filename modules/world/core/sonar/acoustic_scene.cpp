@@ -27,14 +27,14 @@ std::vector<EchoMaterial> EchoMaterial::Defaults() {
 
 AcousticScene::AcousticScene(const std::vector<Solid>& solids, double height_m, double half_band_m,
                              const std::vector<EchoMaterial>& materials)
-    : materials_(materials) {
-  if (materials_.empty()) materials_.push_back(EchoMaterial{});
+    : materials_(std::make_shared<const std::vector<EchoMaterial>>(
+          materials.empty() ? std::vector<EchoMaterial>(1) : materials)) {
   for (std::size_t i = 0; i < solids.size(); ++i) {
     const Solid& solid = solids[i];
     if (!Overlaps(solid, height_m - half_band_m, height_m + half_band_m)) continue;
-    const auto known = std::find_if(materials_.begin(), materials_.end(),
+    const auto known = std::find_if(materials_->begin(), materials_->end(),
                                     [&](const EchoMaterial& m) { return m.material == solid.material; });
-    const auto index = known == materials_.end() ? 0 : static_cast<std::size_t>(known - materials_.begin());
+    const auto index = known == materials_->end() ? 0 : static_cast<std::size_t>(known - materials_->begin());
     const Rectangle outline = OutlineOf(solid);
     obstacles_.push_back({outline, RayTarget(outline), index, i});
   }
@@ -48,6 +48,17 @@ void AcousticScene::FindEdges(const Obstacle& obstacle) {
     });
     if (!covered) edges_.push_back({corner, obstacle.solid});
   }
+}
+
+AcousticScene AcousticScene::Around(const Eigen::Vector2d& place, double reach_m) const {
+  AcousticScene around;
+  around.materials_ = materials_;
+  for (const Obstacle& obstacle : obstacles_)
+    if ((obstacle.target.centre - place).norm() <= reach_m + obstacle.target.half.norm())
+      around.obstacles_.push_back(obstacle);
+  for (const AcousticEdge& edge : edges_)
+    if ((edge.point - place).norm() <= reach_m) around.edges_.push_back(edge);
+  return around;
 }
 
 void AcousticScene::Move(const MovedSolid& moved) {
@@ -69,7 +80,7 @@ std::optional<AcousticScene::Hit> AcousticScene::Nearest(const Eigen::Vector2d& 
     const auto hit = CastRay(obstacle.target, origin, direction, limit);
     if (hit)
       nearest = Hit{hit->distance_m, origin + direction * hit->distance_m, hit->normal,
-                    &materials_[obstacle.material]};
+                    &(*materials_)[obstacle.material]};
   }
   return nearest;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,6 +50,9 @@ class AcousticScene {
   /// Convex edges that no other solid covers.
   const std::vector<AcousticEdge>& edges() const { return edges_; }
   bool Visible(const Eigen::Vector2d& from, const Eigen::Vector2d& point) const;
+  /// What lies within `reach_m` of a place, map frame: a world from a map of a building has thousands of
+  /// solids, of which a ping can reach a few dozen. Edges keep their cover by solids farther away.
+  AcousticScene Around(const Eigen::Vector2d& place, double reach_m) const;
   /// A solid is elsewhere now. Which edges of others it covers stays as it was.
   void Move(const MovedSolid& moved);
 
@@ -61,7 +65,9 @@ class AcousticScene {
   };
   void FindEdges(const Obstacle& obstacle);
 
-  std::vector<EchoMaterial> materials_;
+  AcousticScene() = default;
+
+  std::shared_ptr<const std::vector<EchoMaterial>> materials_;  ///< at least one
   std::vector<Obstacle> obstacles_;
   std::vector<AcousticEdge> edges_;
 };

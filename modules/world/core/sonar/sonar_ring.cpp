@@ -31,10 +31,13 @@ SonarRing::SonarRing(const SonarConfig& config, const Eigen::Vector2d& footprint
 }
 
 void SonarRing::Fire(int group, const Pose2& map_from_base) {
+  // Sound that comes back in time has been no farther from its sensor than the range.
+  const AcousticScene scene =
+      scene_.Around(map_from_base.translation(), kSonarMax_m + footprint_m_.norm() / 2);
   std::vector<std::optional<Echo>> echoes;
   for (int i = group; i < kSonars; i += config_.groups) {
     const double threshold_db = -config_.sensitivity_db + DeafnessDb(i) + rng_.Normal(config_.fading_db);
-    echoes.push_back(Ping(scene_, config_, map_from_base * BaseFromSonar(i, footprint_m_), threshold_db));
+    echoes.push_back(Ping(scene, config_, map_from_base * BaseFromSonar(i, footprint_m_), threshold_db));
   }
   for (int i = group, k = 0; i < kSonars; i += config_.groups, ++k) {
     std::optional<double> range_m;

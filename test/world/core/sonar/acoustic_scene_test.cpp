@@ -35,6 +35,16 @@ TEST(AcousticSceneTest, AnUnlistedMaterialAnswersLikeTheFirst) {
   EXPECT_EQ(dut.Nearest({0, 0}, {1, 0}, 5)->material->material, "plaster");
 }
 
+TEST(AcousticSceneTest, AroundKeepsWhatReachesInAndItsMaterial) {
+  const AcousticScene whole =
+      SceneOf({Box({3, 0, 0}, {0.2, 4}, "fabric"), Box({9, 0, 0}, {0.2, 4}), Box({0, 7, 0}, {0.2, 6})});
+  const AcousticScene dut = whole.Around({0, 0}, 5);
+  EXPECT_EQ(dut.Nearest({0, 0}, {1, 0}, 20)->material->material, "fabric");
+  EXPECT_FALSE(dut.Nearest({5, 0}, {1, 0}, 20));
+  EXPECT_TRUE(dut.Nearest({0, 0}, {0, 1}, 20));
+  EXPECT_EQ(dut.edges().size(), 6u);  // four of the near box, the two near ones of the third
+}
+
 TEST(AcousticSceneTest, AFreeStandingBoxHasFourEdges) {
   EXPECT_EQ(SceneOf({Box({3, 0, 0}, {1, 1})}).edges().size(), 4u);
 }

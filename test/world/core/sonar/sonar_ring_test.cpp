@@ -120,6 +120,32 @@ TEST(PingTest, TheBeamIsAboutFifteenDegreesWide) {
   EXPECT_FALSE(Range(post(20)));
 }
 
+/// Rough and smooth boxes anywhere within `spread_m`, from a fixed seed.
+std::vector<Solid> Strewn(std::uint64_t seed, double spread_m, int count) {
+  Rng rng(seed);
+  std::vector<Solid> solids;
+  solids.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i)
+    solids.push_back(
+        Box({rng.Uniform(-spread_m, spread_m), rng.Uniform(-spread_m, spread_m), rng.Uniform(0, kPi)},
+            {rng.Uniform(0.05, 2), rng.Uniform(0.05, 2)}, i % 2 ? "fabric" : "plaster"));
+  return solids;
+}
+
+TEST(PingTest, WhatLiesBeyondItsRangeChangesNothing) {
+  int heard = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const AcousticScene scene = SceneOf(Strewn(seed, 12, 60));
+    for (int i = 0; i < kSonars; ++i) {
+      const Pose2 sonar{0.2, -0.1, 2 * kPi * i / kSonars};
+      const auto whole = Range(scene, sonar);
+      EXPECT_EQ(whole, Range(scene.Around(sonar.translation(), kSonarMax_m), sonar)) << seed << " " << i;
+      heard += whole ? 1 : 0;
+    }
+  }
+  EXPECT_GT(heard, 400);
+}
+
 RC_GTEST_PROP(PingProperty, NoEchoIsNearerThanTheNearestSolid, ()) {
   std::vector<Solid> solids;
   const auto metres = [](int low, int high) { return *rc::gen::inRange(low, high) / 100.0; };
