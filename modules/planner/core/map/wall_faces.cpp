@@ -13,7 +13,7 @@ namespace {
 constexpr double kDoorway_m = 1.5;  ///< the widest gap that does not part a wall
 constexpr double kOnLine_m = 0.01;  ///< pieces of one wall lie on one line
 constexpr double kSameAngle_rad = 0.004;
-constexpr double kReach_m = 4;          ///< a face farther beside the way is not heard
+constexpr double kReach_m = 5;          ///< a face farther beside the way is not heard
 constexpr double kSample_m = 0.25;      ///< between two places of the way
 constexpr double kLeastAlong_m = 0.75;  ///< a face that is beside less of the way tells little
 

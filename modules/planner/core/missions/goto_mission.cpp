@@ -36,12 +36,14 @@ GotoMission::GotoMission(const GotoMissionConfig& config, const Footprint& footp
     : config_(config),
       footprint_(footprint),
       planner_(config.route, footprint, plan),
-      keeper_(config.keep, plan) {}
+      keeper_(config.keep, plan),
+      faces_(FacesOf(plan)) {}
 
 std::optional<Refusal> GotoMission::Start(const MissionOrder& order) {
   goal_ = order.goal;
   departures_ = waits_ = 0;
   waits_since_.reset();
+  walls_sent_.reset();
   progress_.Reset();
   planner_.Forget();
   keeper_.Reset();
@@ -60,6 +62,7 @@ void GotoMission::Step(MissionControl& control) {
     return;
   }
   keeper_.Step(control);
+  SendWalls(control);
   const bool is_new = heard.pose->stamp > *control.path_sent();
   if (!is_new || !control.OnPath()) return;
   if (heard.drive->mode == DriveMode::kArrived) {
@@ -71,6 +74,24 @@ void GotoMission::Step(MissionControl& control) {
     return OnStop(control, *stop);
   if (!control.running()) return;
   Reconsider(control);
+}
+
+/// Doors are looked at where there are any: led by both, the base would be drawn to and fro by what the plan
+/// has wrong of each.
+void GotoMission::SendWalls(MissionControl& control) {
+  constexpr double kEvery_s = 5;
+  constexpr double kAhead_m = 6;
+  if (walls_sent_ && Seconds(control.now() - *walls_sent_) < kEvery_s) return;
+  if (!keeper_.NeedsWalls(control) || !control.OnPath()) return;
+  std::vector<Eigen::Vector2d> way{control.heard().pose->map_from_base.translation()};
+  double length_m = 0;
+  for (const Pose2& point : PointsLeft(control.path().points, control.heard().drive->remaining_m)) {
+    if (length_m > kAhead_m) break;
+    length_m += (point.translation() - way.back()).norm();
+    way.push_back(point.translation());
+  }
+  control.SendFaces(FacesAlong(faces_, way));
+  walls_sent_ = control.now();
 }
 
 void GotoMission::Learn(const MissionControl& control) {

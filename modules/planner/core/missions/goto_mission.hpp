@@ -3,9 +3,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/archive.hpp"
 #include "common/ground_plan.hpp"
+#include "planner/core/map/wall_faces.hpp"
 #include "planner/core/missions/mission.hpp"
 #include "planner/core/missions/path_progress.hpp"
 #include "planner/core/missions/pose_keeper.hpp"
@@ -36,7 +38,7 @@ struct GotoMissionConfig {
 /// The mission "go there": a route through the room, driven in pieces of as many lines as a PATH holds. What
 /// stops the robot on the way is put on the map where it stands, for the length of the mission, and another
 /// way is looked for; the robot itself goes around what leaves room beside its line. Looks at doors in sight
-/// keep the pose known.
+/// keep the pose known, and where there are none the walls of the plan that are beside the path.
 class GotoMission : public Mission {
  public:
   GotoMission(const GotoMissionConfig& config, const Footprint& footprint, const GroundPlan& plan);
@@ -55,6 +57,7 @@ class GotoMission : public Mission {
   void WaitOrFail(MissionControl& control, const std::string& why, const std::string& no_way);
   void ChooseGoal(const Pose2& map_from_base);
   void Drive(MissionControl& control, PlannedPath path, const std::string& why);
+  void SendWalls(MissionControl& control);
   void Learn(const MissionControl& control);
   void Reconsider(MissionControl& control);
   void Arrive(MissionControl& control);
@@ -65,6 +68,8 @@ class GotoMission : public Mission {
   Footprint footprint_;
   RoutePlanner planner_;
   PoseKeeper keeper_;
+  std::vector<WallFace> faces_;     ///< of the plan
+  std::optional<Time> walls_sent_;  ///< those beside the path
   Goal goal_;
   int departures_ = 0;                           ///< after a stop
   std::shared_ptr<const LearnedWalls> learned_;  ///< as they were taken into account

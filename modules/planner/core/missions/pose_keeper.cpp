@@ -95,6 +95,10 @@ bool PoseKeeper::MayHelp(const MissionControl& control) const {
   return IsNeeded(control) && !gave_up_ && DoorInSight(control.heard().pose->map_from_base);
 }
 
+bool PoseKeeper::NeedsWalls(const MissionControl& control) const {
+  return IsNeeded(control) && !DoorInSight(control.heard().pose->map_from_base);
+}
+
 bool PoseKeeper::IsNeeded(const MissionControl& control) const {
   const auto& pose = control.heard().pose;
   return pose && IsFresh(*pose, control.now()) && PositionSigma(pose->covariance) > config_.sigma_m;

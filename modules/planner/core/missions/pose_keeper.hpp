@@ -33,6 +33,8 @@ class PoseKeeper {
   void Reset();
   /// Whether looks that are due, or soon will be, may yet make the pose better known where the robot is.
   bool MayHelp(const MissionControl& control) const;
+  /// Whether the pose is uncertain where no door is in sight: walls of the plan may help there.
+  bool NeedsWalls(const MissionControl& control) const;
   /// One time step: takes the answers to looks, and asks for the next one when it is needed.
   void Step(MissionControl& control);
 

@@ -32,10 +32,16 @@ TEST(PoseKeeperTest, TheHeadTurnsSoFarAndNoFarther) {
   EXPECT_FALSE(InSight({3.5, 2.4, Radians(120)}));
 }
 
+GroundPlan WithoutDoors() {
+  GroundPlan plan = ShippedPlan();
+  plan.doors.clear();
+  return plan;
+}
+
 /// A drive from (0.8, 2.4) to (4.6, 2.4) with a pose known to `sigma_m`.
 struct Drive {
-  explicit Drive(double sigma_m) : robot(missions, {0.8, 2.4, 0}) {
-    missions.Add(2, std::make_unique<GotoMission>(GotoMissionConfig{}, Footprint{}, ShippedPlan()));
+  explicit Drive(double sigma_m, const GroundPlan& plan = ShippedPlan()) : robot(missions, {0.8, 2.4, 0}) {
+    missions.Add(2, std::make_unique<GotoMission>(GotoMissionConfig{}, Footprint{}, plan));
     robot.sigma_m = sigma_m;
     missions.Start(robot.now(), {2, 0, {{4.6, 2.4, 0}}});
   }
@@ -58,6 +64,25 @@ TEST(PoseKeeperTest, AKnownPoseIsLeftAlone) {
   Drive drive(0.05);
   drive.robot.RunFor(60);
   EXPECT_TRUE(drive.robot.looks.empty());
+}
+
+/// The walls of the plan that the robot was given last on half a minute of a drive.
+std::vector<WallFace> WallsGiven(Drive& drive) {
+  std::vector<WallFace> faces;
+  drive.robot.tick = [&](Time now) {
+    MissionActions actions = drive.missions.Tick(now);
+    if (actions.faces) faces = *actions.faces;
+    return actions;
+  };
+  drive.robot.RunFor(30);
+  return faces;
+}
+
+TEST(PoseKeeperTest, WhereNoDoorIsInSightWallsOfThePlanHelp) {
+  Drive uncertain(0.12, WithoutDoors());
+  EXPECT_FALSE(WallsGiven(uncertain).empty());
+  Drive known(0.05, WithoutDoors());
+  EXPECT_TRUE(WallsGiven(known).empty());
 }
 
 TEST(PoseKeeperTest, TheHeadGetsTheModelBeforeItLooks) {
