@@ -49,13 +49,23 @@ void CheckSize(const CameraValues& values, const std::string& below, const Image
                                                          size.width, size.height, width, height));
 }
 
-/// Checks that a matrix can be that of a camera: focal lengths, and a third row that is (0, 0, 1).
-void CheckIntrinsics(const CameraValues& values, const CameraEntry& entry, const Eigen::Matrix3d& k) {
+/// Checks that a matrix can be that of a camera: focal lengths, a centre, and a third row that is (0, 0, 1).
+void CheckIntrinsics(const CameraValues& values, const CameraEntry& entry, const Eigen::Matrix3d& k,
+                     const ImageSize& size) {
   const bool is_camera =
       k(0, 0) > 0 && k(1, 1) > 0 && k(1, 0) == 0 && k(2, 0) == 0 && k(2, 1) == 0 && k(2, 2) == 1;
   if (!is_camera)
     values.Fail(entry,
                 "expected fu, skew, u0, 0, fv, v0, 0, 0, 1 with focal lengths above 0, got another matrix");
+  // From 170 degrees across the picture to a quarter of a degree; a picture that was cut out of a larger one
+  // may have its centre beside it.
+  const auto is_lens = [](double focal_px, double centre_px, double size_px) {
+    return focal_px >= 0.04 * size_px && focal_px <= 200 * size_px && std::abs(centre_px) <= 10 * size_px;
+  };
+  if (!is_lens(k(0, 0), k(0, 2), size.width) || !is_lens(k(1, 1), k(1, 2), size.height))
+    values.Fail(entry, fmt::format("expected focal lengths and a centre in pixels of an image of {}x{}, got "
+                                   "{:g}, {:g} and ({:g}, {:g})",
+                                   size.width, size.height, k(0, 0), k(1, 1), k(0, 2), k(1, 2)));
 }
 
 /// k1, k2, p1, p2, k3, k4, k5, k6 as OpenCV has them; what follows (thin prism, tilt) must be 0.
@@ -107,10 +117,10 @@ CameraModel RectifiedCamera(const CameraValues& values, const std::string& below
 
 /// A camera of images as it took them. Where a projection matrix says where the camera stands beside another
 /// one, the base frame is that of both rectified cameras.
-CameraModel RawCamera(const CameraValues& values, const std::string& below) {
+CameraModel RawCamera(const CameraValues& values, const std::string& below, const ImageSize& size) {
   CameraModel camera;
   const Eigen::Matrix3d k = values.Matrix(below, kCameraMatrix);
-  CheckIntrinsics(values, *values.Find(below, kCameraMatrix), k);
+  CheckIntrinsics(values, *values.Find(below, kCameraMatrix), k, size);
   SetDistortion(values, below, camera);
   SetCentre(k, camera);
   Matrix34 camera_from_base = Matrix34::Identity();
@@ -142,7 +152,7 @@ CameraModel StandardCamera(const CameraValues& values, const CameraFileOptions& 
                       "images say --rectified");
     return RectifiedCamera(values, "", options.size);
   }
-  return RawCamera(values, "");
+  return RawCamera(values, "", options.size);
 }
 
 /// The element that holds ViSP's numbers: the model with distortion, if there is one; of a tracker's
@@ -167,7 +177,7 @@ CameraModel VispCamera(const CameraValues& values, const CameraFileOptions& opti
   Eigen::Matrix3d k;
   k << values.Number(model, {"px"}), 0, values.Number(model, {"u0"}), 0, values.Number(model, {"py"}),
       values.Number(model, {"v0"}), 0, 0, 1;
-  CheckIntrinsics(values, *values.Find(model, {"px"}), k);
+  CheckIntrinsics(values, *values.Find(model, {"px"}), k, options.size);
   CameraModel camera;
   if (!options.are_rectified && values.Has(model, {"kud"})) camera.k1 = values.Number(model, {"kud"});
   SetCentre(k, camera);
@@ -180,6 +190,7 @@ CameraModel CalibratedCamera(const CameraValues& values, const std::string& belo
   CheckSize(values, below, size);
   CameraModel camera;
   const Eigen::Matrix3d k = values.Matrix(below, {"K"});
+  CheckIntrinsics(values, *values.Find(below, {"K"}), k, size);
   camera.image_from_base << k, Eigen::Vector3d::Zero();
   if (values.Has(below, {"image_from_points"}))
     camera.image_from_base = values.Projection(below, {"image_from_points"});

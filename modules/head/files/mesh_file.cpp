@@ -5,9 +5,11 @@
 #include <fmt/format.h>
 
 #include <assimp/Importer.hpp>
+#include <optional>
 #include <string_view>
 
 #include "common/config.hpp"
+#include "head/files/mesh_text.hpp"
 #include "head/files/model_text.hpp"
 
 namespace priamos::head {
@@ -23,7 +25,8 @@ std::string MeshBytes(const std::string& path) {
   return std::move(*bytes);
 }
 
-/// Wavefront text as Assimp understands it: without a byte order mark, and without comments behind a value.
+/// Wavefront text as Assimp understands it: without a byte order mark, without comments behind a value, and
+/// with lines that go on in the next one as one.
 std::string PlainObj(std::string_view text) {
   constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
@@ -33,9 +36,25 @@ std::string PlainObj(std::string_view text) {
   for (const char c : text) {
     if (c == '#') in_comment = true;
     if (c == '\n') in_comment = false;
-    if (!in_comment) plain += c;
+    if (in_comment) continue;
+    const bool goes_on = c == '\n' && plain.ends_with('\\');
+    if (goes_on) plain.back() = ' ';
+    plain += goes_on ? ' ' : c;
   }
   return plain;
+}
+
+/// The text form of .stl; the binary one may begin with the same word.
+bool IsTextOfStl(std::string_view bytes) {
+  return bytes.starts_with("solid") && bytes.find("endsolid") != std::string_view::npos;
+}
+
+/// Throws ConfigError "FILE:LINE: KEY: what" for a text that holds no mesh.
+void CheckText(const std::string& file, const std::string& extension, std::string_view bytes) {
+  std::optional<std::string> wrong;
+  if (extension == ".obj") wrong = WrongLineOfObj(bytes);
+  if (extension == ".stl" && IsTextOfStl(bytes)) wrong = WrongLineOfStl(bytes);
+  if (wrong) throw ConfigError(fmt::format("{}:{}", file, *wrong));
 }
 
 void Append(const aiMesh& part, TriangleMesh& mesh) {
@@ -59,6 +78,7 @@ TriangleMesh LoadMesh(const std::string& file) {
   std::string bytes = MeshBytes(file);
   const std::string extension = ExtensionOf(file);
   if (extension == ".obj") bytes = PlainObj(bytes);
+  CheckText(file, extension, bytes);
   Assimp::Importer importer;
   const aiScene* scene =
       importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_Triangulate, extension.c_str() + 1);

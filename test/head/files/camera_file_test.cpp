@@ -306,6 +306,13 @@ TEST_F(CameraFileTest, MatricesNeedTheirNumbers) {
               AllOf(StartsWith("3: K: expected fu, skew"), HasSubstr("above 0")));
 }
 
+TEST_F(CameraFileTest, FocalLengthsThatNoLensHasAreRefused) {
+  for (const char* focal : {"1", "6e8"})
+    EXPECT_THAT(
+        ReasonOf(fmt::format("{}K: [{}, 0, 160, 0, 300, 120, 0, 0, 1]\n", kSize, focal)),
+        StartsWith("3: K: expected focal lengths and a centre in pixels of an image of 320x240, got"));
+}
+
 TEST_F(CameraFileTest, WhatIsNoCameraIsNamed) {
   const std::string missing = folder_ / "none.yaml";
   EXPECT_EQ(support::ThrownReason([&] { Load(missing); }),

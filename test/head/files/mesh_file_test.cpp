@@ -92,6 +92,26 @@ TEST_F(MeshFileTest, WhatIsNoMeshIsNamed) {
               HasSubstr("points.obj"));
 }
 
+TEST_F(MeshFileTest, ALineThatIsNoneOfAMeshIsNamed) {
+  const auto reason = [&](const char* name, const std::string& text) {
+    const std::string file = Write(name, text);
+    return ThrownReason([&] { LoadMesh(file); }).substr(file.size());
+  };
+  EXPECT_EQ(reason("a.obj", "v 0 0 0\nv 1 zz 0\n"), ":2: v: expected a number, got \"zz\"");
+  EXPECT_EQ(reason("a.obj", "v 0 0\n"), ":1: v: expected 3 numbers, got 2");
+  EXPECT_EQ(reason("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 nan\nf 1 2 3\n"),
+            ":3: v: expected a number, got \"nan\"");
+  EXPECT_EQ(reason("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n\nf 1 2 9\n"),
+            ":5: f: expected the number of one of 3 places, got \"9\"");
+  EXPECT_EQ(reason("a.obj", "v 0 0 0\nf 1/1 1/2\n"), ":2: f: expected 3 corners or more, got 2");
+  EXPECT_EQ(reason("a.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 x 0\nendsolid\n"),
+            ":4: vertex: expected a number, got \"x\"");
+}
+
+TEST_F(MeshFileTest, LinesThatGoOnAndNumbersFromTheLastPlaceBackAreRead) {
+  EXPECT_EQ(LoadMesh(Write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 \\\n-2 -1\n")).triangles.size(), 1u);
+}
+
 TEST_F(MeshFileTest, ADamagedMeshIsRefusedOrRead) {
   const std::string stl = BinaryStl(LoadMesh(Write("box.obj", kObj)));
   for (std::size_t length = 0; length < stl.size(); length += 37) {
