@@ -53,6 +53,7 @@ const std::vector<Call> kCalls{
     {"mission explore", ""},
     {"mission locate", ""},
     {"mission patrol", "3 2.4 4 2.4"},
+    {"mission elevator", "cabin --deployment $SOURCE/config/sim"},
     {"mission run", "$SOURCE/config/sim/missions/round.toml --deployment $SOURCE/config/sim"},
     {"mission cancel", "4711"},
     {"param list", "robot --deployment $SOURCE/config/sim"},

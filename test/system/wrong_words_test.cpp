@@ -32,7 +32,8 @@ const std::vector<WrongLine> kLines{
     {"priamos wehre", "unknown verb \"wehre\"", "\"where\""},
     {"priamos mission dor laboratory", "unknown verb \"dor\"", "\"door\""},
     {"priamos mission", "got none",
-     "abort, cancel, corridor, door, explore, goto, list, locate, patrol, pause, resume, run, status"},
+     "abort, cancel, corridor, door, elevator, explore, goto, list, locate, patrol, pause, resume, run, "
+     "status"},
     {"priamos log inof x.lcmlog", "unknown verb \"inof\"", "\"info\""},
     {"priamos link bugdet", "unknown verb \"bugdet\"", "\"budget\""},
     {"priamos completion bahs", "unknown verb \"bahs\"", "\"bash\""},

@@ -49,6 +49,9 @@ class Rehearsal {
     return std::nullopt;
   }
 
+  /// Where the base has come into the cabin of a door; nullopt: it leads into none.
+  std::optional<Pose2> InCabin(int door_id) const { return router_.PlaceInCabin(door_id); }
+
  private:
   std::optional<std::string> Drive(const planner::Goal& goal) {
     // Of the first step nobody knows from where: whether the base fits at its end.
@@ -59,7 +62,9 @@ class Rehearsal {
   }
   std::optional<std::string> Pass(int door_id) {
     if (!plan_.FindDoor(door_id)) return fmt::format("the map has no door {}", door_id);
-    if (at_) at_ = router_.PlanThrough(*at_, door_id).back().goal.map_from_base;
+    // Of the first step nobody knows from which side, but for a cabin.
+    const auto cabin = router_.PlaceInCabin(door_id);
+    at_ = at_ ? std::optional(router_.PlanThrough(*at_, door_id).back().goal.map_from_base) : cabin;
     return std::nullopt;
   }
 
@@ -68,33 +73,67 @@ class Rehearsal {
   std::optional<Pose2> at_;
 };
 
-mission_step_t ToMessage(const MissionFileStep& step, const GroundPlan& plan, const std::string& map) {
+mission_step_t DriveTo(const Pose2& place, bool turn) {
   mission_step_t message{};
-  if (step.what == "goto") {
-    message.mission = mission_command_t::GOTO;
-    message.x_m = step.x_m;
-    message.y_m = step.y_m;
-    message.turn = step.yaw_deg.has_value();
-    message.yaw_rad = WrapAngle(Radians(step.yaw_deg.value_or(0)));
-  } else if (step.what == "door") {
-    message.mission = mission_command_t::PASS_DOOR;
-    try {
-      message.landmark_id = static_cast<std::int16_t>(DoorNamed(plan, step.door, map));
-    } catch (const ConfigError& error) {
-      throw ConfigError(step.place.Begin() + error.what());
-    }
-  } else if (step.what == "explore") {
-    message.mission = mission_command_t::EXPLORE;
-  } else if (step.what == "locate") {
-    message.mission = mission_command_t::LOCATE;
-  } else if (step.what == "corridor") {
-    message.mission = mission_command_t::CORRIDOR;
-    message.distance_m = static_cast<float>(step.distance_m);
-  } else {
-    message.mission = mission_command_t::WAIT;
-    message.wait_s = step.wait_s;
+  message.mission = mission_command_t::GOTO;
+  message.x_m = place.x;
+  message.y_m = place.y;
+  message.turn = turn;
+  message.yaw_rad = WrapAngle(place.yaw);
+  return message;
+}
+
+mission_step_t PassDoor(const MissionFileStep& step, const GroundPlan& plan, const std::string& map) {
+  mission_step_t message{};
+  message.mission = mission_command_t::PASS_DOOR;
+  try {
+    message.landmark_id = static_cast<std::int16_t>(DoorNamed(plan, step.door, map));
+  } catch (const ConfigError& error) {
+    throw ConfigError(step.place.Begin() + error.what());
   }
   return message;
+}
+
+mission_step_t Stand(double wait_s) {
+  mission_step_t message{};
+  message.mission = mission_command_t::WAIT;
+  message.wait_s = wait_s;
+  return message;
+}
+
+mission_step_t ToMessage(const MissionFileStep& step, const GroundPlan& plan, const std::string& map) {
+  if (step.what == "goto")
+    return DriveTo({step.x_m, step.y_m, Radians(step.yaw_deg.value_or(0))}, step.yaw_deg.has_value());
+  if (step.what == "door") return PassDoor(step, plan, map);
+  if (step.what == "wait") return Stand(step.wait_s);
+  mission_step_t message{};
+  message.mission = step.what == "explore"  ? mission_command_t::EXPLORE
+                    : step.what == "locate" ? mission_command_t::LOCATE
+                                            : mission_command_t::CORRIDOR;
+  message.distance_m = static_cast<float>(step.distance_m);
+  return message;
+}
+
+/// Into the cabin, the ride, and out again.
+std::vector<mission_step_t> RideOf(const MissionFileStep& step, const Rehearsal& rehearsal,
+                                   const mission_step_t& pass) {
+  const auto inside = rehearsal.InCabin(pass.landmark_id);
+  if (!inside)
+    throw ConfigError(
+        fmt::format("{}door {} leads into no cabin, a room with no place to look at it from; "
+                    "next: pass it with do = \"door\", there and back",
+                    step.place.Begin(), step.door));
+  std::vector<mission_step_t> ride{pass};
+  if (step.turn) ride.push_back(DriveTo(*inside * Pose2{0, 0, kPi}, true));
+  ride.push_back(Stand(step.wait_s));
+  ride.push_back(pass);
+  return ride;
+}
+
+std::vector<mission_step_t> MessagesOf(const MissionFileStep& step, const Rehearsal& rehearsal,
+                                       const GroundPlan& plan, const std::string& map) {
+  if (step.what == "elevator") return RideOf(step, rehearsal, PassDoor(step, plan, map));
+  return {ToMessage(step, plan, map)};
 }
 
 /// Appends the steps that a `repeat` names, so often.
@@ -116,7 +155,7 @@ void Repeat(const MissionFileStep& repeat, std::size_t number, std::vector<std::
 
 void MissionFileStep::Describe(Archive& a) {
   NotePlace(a, place);
-  a.Choice("do", what, {"goto", "door", "corridor", "explore", "locate", "wait", "repeat"},
+  a.Choice("do", what, {"goto", "door", "elevator", "corridor", "explore", "locate", "wait", "repeat"},
            "what is done in this step");
   if (what == "goto") {
     a.Require("x_m", "a place, x_m and y_m");
@@ -129,6 +168,11 @@ void MissionFileStep::Describe(Archive& a) {
   } else if (what == "door") {
     a.Require("door", "the door's name in the map, or its number");
     a.Text("door", door, "its name in the map, or its number");
+  } else if (what == "elevator") {
+    a.Require("door", "the name of the cabin's door in the map, or its number");
+    a.Text("door", door, "its name in the map, or its number");
+    a.Number("wait_s", wait_s, {"s", 0, 36000, "how long the ride takes"});
+    a.Flag("turn", turn, "turn round in the cabin, which needs more room than the base's diagonal");
   } else if (what == "corridor") {
     a.Number("distance_m", distance_m, {"m", 0, 180, "how far the corridor is followed; 0: to its end"});
   } else if (what == "explore" || what == "locate") {
@@ -167,8 +211,11 @@ mission_command_t OrderOf(const MissionFile& file, const planner::PlannerConfig&
       Repeat(step, first.size(), first, order.steps);
       continue;
     }
-    order.steps.push_back(ToMessage(step, plan, map));
-    if (const auto why = rehearsal.Do(order.steps.back())) throw ConfigError(step.place.Begin() + *why);
+    const auto add = [&](const mission_step_t& message) {
+      order.steps.push_back(message);
+      if (const auto why = rehearsal.Do(message)) throw ConfigError(step.place.Begin() + *why);
+    };
+    for (const mission_step_t& message : MessagesOf(step, rehearsal, plan, map)) add(message);
   }
   CheckNumber(order.steps.size(), file);
   const MissionFileStep& begin = file.steps.front();

@@ -14,12 +14,13 @@ namespace priamos::cli {
 
 /// One step of a mission file.
 struct MissionFileStep {
-  std::string what = "goto";  ///< "goto", "door", "corridor", "locate", "wait" or "repeat"
+  std::string what = "goto";  ///< "goto", "door", "elevator", "corridor", "locate", "wait" or "repeat"
   double x_m = 0, y_m = 0;
   std::optional<double> yaw_deg;  ///< heading at the place; as it suits the path if not given
   std::string door;               ///< name or number
   double distance_m = 0;          ///< along a corridor; 0: to its end
   double wait_s = 0;
+  bool turn = false;        ///< elevator: turn round in the cabin
   int from = 1, times = 1;  ///< repeat: the steps from this one on, so many times more
   SectionPlace place;       ///< where it was read, for errors
 

@@ -16,6 +16,7 @@ struct StoryList {
 using AllStories = StoryList<  //
     class CorridorStory,       //
     class DoorStory,           //
+    class ElevatorStory,       //
     class ExploreStory,        //
     class GotoStory,           //
     class LocateStory,         //

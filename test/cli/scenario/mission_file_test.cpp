@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "common/config.hpp"
@@ -50,6 +52,49 @@ TEST(MissionFile, ItsStepsBecomeAnOrder) {
   EXPECT_FALSE(order.steps[3].turn);
 }
 
+mission_command_t Ride(const std::string& more, double width_m = 1.10) {
+  GroundPlan plan = LoadConfig<GroundPlan>(PRIAMOS_SOURCE_DIR "/config/sim/maps/elevator.toml");
+  for (WallPlan& wall : plan.walls) {
+    if (wall.name == "cabin right") wall.from_m[1] = wall.to_m[1] = 2.4 - width_m / 2 - 0.07;
+    if (wall.name == "cabin left") wall.from_m[1] = wall.to_m[1] = 2.4 + width_m / 2 + 0.07;
+    if (wall.name == "cabin back") wall.from_m[0] = wall.to_m[0] = 6.14 + std::max(1.40, width_m);
+  }
+  ConfigFile toml("ride.toml", "[[step]]\ndo = \"elevator\"\ndoor = \"cabin\"\nwait_s = 20\n" + more);
+  MissionFile file;
+  file.Describe(toml.archive());
+  toml.RefuseUnknownKeys();
+  return OrderOf(file, {}, plan, "elevator.toml");
+}
+
+TEST(MissionFile, AnElevatorIsADoorARideAndTheDoorAgain) {
+  const auto order = Ride(kGo);
+  ASSERT_EQ(order.n_steps, 4);
+  EXPECT_EQ(order.steps[0].mission, mission_command_t::PASS_DOOR);
+  EXPECT_EQ(order.steps[1].mission, mission_command_t::WAIT);
+  EXPECT_EQ(order.steps[1].wait_s, 20);
+  EXPECT_EQ(order.steps[2].mission, mission_command_t::PASS_DOOR);
+  EXPECT_EQ(order.steps[2].landmark_id, 1);
+}
+
+TEST(MissionFile, WhereTheCabinIsWideEnoughItMayTurnInIt) {
+  const auto order = Ride("turn = true\n", 1.6);
+  ASSERT_EQ(order.n_steps, 4);
+  EXPECT_EQ(order.steps[1].mission, mission_command_t::GOTO);
+  EXPECT_NEAR(std::abs(order.steps[1].yaw_rad), kPi, 1e-9);
+  EXPECT_NEAR(order.steps[1].x_m, 6.87, 0.02);
+  try {
+    Ride("turn = true\n");
+    FAIL() << "the circle around the base is 1.23 m";
+  } catch (const ConfigError& error) {
+    EXPECT_THAT(error.what(), StartsWith("ride.toml:1:"));
+  }
+}
+
+TEST(MissionFile, AnElevatorWithoutACabinIsRefused) {
+  EXPECT_THAT(WhyNot("[[step]]\ndo = \"elevator\"\ndoor = \"laboratory\"\n"),
+              testing::AllOf(StartsWith("round.toml:1:"), HasSubstr("leads into no cabin")));
+}
+
 TEST(MissionFile, ARepeatIsWrittenOut) {
   const auto order = Read(kGo +
                           "[[step]]\ndo = \"wait\"\nwait_s = 1\n[[step]]\ndo = \"repeat\"\nfrom = 2\n"
@@ -70,7 +115,8 @@ TEST(MissionFile, WhatCannotBeDoneIsNamedWithItsLine) {
               HasSubstr("round.toml:1:step[0].y_m: expected a place"));
   EXPECT_THAT(
       WhyNot("[[step]]\ndo = \"fly\"\n"),
-      HasSubstr("round.toml:2:step[0].do: expected one of goto, door, corridor, explore, locate, wait"));
+      HasSubstr(
+          "round.toml:2:step[0].do: expected one of goto, door, elevator, corridor, explore, locate, wait"));
   EXPECT_THAT(WhyNot(kGo + "wait_s = 4\n"), AllOf(StartsWith("round.toml:5:"), HasSubstr("wait_s")));
   EXPECT_THAT(WhyNot("[[step]]\ndo = \"repeat\"\nfrom = 1\n" + kGo), HasSubstr("a step before this one"));
   EXPECT_THAT(WhyNot(kGo + "[[step]]\ndo = \"repeat\"\ntimes = 32\n"), HasSubstr("at most 32 steps"));

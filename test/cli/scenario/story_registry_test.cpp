@@ -46,10 +46,10 @@ TEST(Stories, UnknownNameInAScenarioIsRefusedWithItsPlaceAndTheNearestName) {
     ParseConfig<Scenario>("walk.toml", "title = \"walk\"\nstory = \"telop\"\n");
     FAIL() << "an unknown story was taken";
   } catch (const ConfigError& error) {
-    EXPECT_STREQ(error.what(),
-                 "walk.toml:2:story: expected one of corridor, door, explore, goto, locate, patrol, teleop, "
-                 "got \"telop\"; "
-                 "nearest: \"teleop\"");
+    EXPECT_STREQ(
+        error.what(),
+        "walk.toml:2:story: expected one of corridor, door, elevator, explore, goto, locate, patrol, "
+        "teleop, got \"telop\"; nearest: \"teleop\"");
   }
 }
 

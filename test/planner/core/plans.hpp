@@ -11,6 +11,11 @@ inline GroundPlan ShippedPlan() {
   return LoadConfig<GroundPlan>(PRIAMOS_SOURCE_DIR "/config/sim/maps/door.toml");
 }
 
+/// A landing and a cabin of 1.10 m by 1.40 m.
+inline GroundPlan ElevatorPlan() {
+  return LoadConfig<GroundPlan>(PRIAMOS_SOURCE_DIR "/config/sim/maps/elevator.toml");
+}
+
 /// The shipped plan moved as a whole.
 inline GroundPlan Moved(GroundPlan plan, const Pose2& new_from_map) {
   for (WallPlan& wall : plan.walls) {

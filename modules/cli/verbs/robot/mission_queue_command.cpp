@@ -37,6 +37,18 @@ int Patrol(const MissionOptions& options) {
   return GiveOrder(options, OrderOf(patrol, PlannerOf(options)), "patrol");
 }
 
+int Elevator(const MissionOptions& options) {
+  MissionFile file;
+  file.title = fmt::format("elevator {}", options.door).substr(0, 60);
+  MissionFileStep ride;
+  ride.what = "elevator";
+  ride.door = options.door;
+  ride.wait_s = options.wait_s;
+  ride.turn = options.turn;
+  file.steps.push_back(ride);
+  return GiveOrder(options, OrderOf(file, PlannerOf(options)), "elevator");
+}
+
 int Intervene(const MissionOptions& options, std::int8_t mission, const char* verb) {
   mission_command_t command{};
   command.mission = mission;
@@ -113,7 +125,8 @@ void AddRunVerb(CLI::App& mission, int& exit_code) {
               "Order the steps of a file, which is checked before anything moves; ends when they are under "
               "way or wait, with --wait when they are over (exit code 1: not done).");
   verb->footer("Example: priamos mission run config/sim/missions/round.toml --wait");
-  verb->add_option("file", options->file, "TOML: [[step]] with do = goto, door, wait or repeat")->required();
+  verb->add_option("file", options->file, "TOML: [[step]] with do = goto, door, elevator, wait or repeat")
+      ->required();
   verb->add_flag("--wait", options->wait, "until they are over");
   AddPlannerOptions(*verb, *options);
   CompleteMission(*verb, options, RunFile, exit_code);
@@ -132,6 +145,23 @@ void AddPatrolVerb(CLI::App& mission, int& exit_code) {
   verb->add_flag("--wait", options->wait, "until it is over");
   AddPlannerOptions(*verb, *options);
   CompleteMission(*verb, options, Patrol, exit_code);
+}
+
+void AddElevatorVerb(CLI::App& mission, int& exit_code) {
+  auto options = std::make_shared<MissionOptions>();
+  options->wait_s = 10;
+  auto* verb = AddVerb(mission, "elevator",
+                       "Into the cabin behind a door, stand while it rides, and out again, backwards unless "
+                       "it turned; whether base and cabin fit is checked before anything moves.");
+  verb->footer("Example: priamos mission elevator cabin --ride 20 --wait");
+  verb->add_option("door", options->door, "the cabin's door: its name in the map, or its number")->required();
+  verb->add_option("--ride", options->wait_s, "[s] how long it stands in the cabin; 10 if not given")
+      ->check(CLI::Range(0.0, 36000.0));
+  verb->add_flag("--turn", options->turn,
+                 "turn round in the cabin: it has to hold the circle around the base");
+  verb->add_flag("--wait", options->wait, "until it is out again");
+  AddPlannerOptions(*verb, *options);
+  CompleteMission(*verb, options, Elevator, exit_code);
 }
 
 void AddCancelVerb(CLI::App& mission, int& exit_code) {
@@ -157,6 +187,7 @@ void AddPlainVerb(CLI::App& mission, const char* name, const char* what, int (*r
 void AddQueueVerbs(CLI::App& mission, int& exit_code) {
   AddRunVerb(mission, exit_code);
   AddPatrolVerb(mission, exit_code);
+  AddElevatorVerb(mission, exit_code);
   AddPlainVerb(mission, "list", "The order under way, those that wait, and how the last ones ended.", List,
                exit_code);
   AddCancelVerb(mission, exit_code);

@@ -28,6 +28,8 @@ struct MissionOptions {
   std::optional<double> yaw_deg;
   double distance_m = 0;       ///< along a corridor; 0: to its end
   std::vector<double> places;  ///< x and y in turn
+  double wait_s = 0;           ///< in an elevator
+  bool turn = false;           ///< round in its cabin
   int order = 0;
   std::string deployment, log_root;  ///< of the planner; empty: as PlannerInUse has it, and LogRoot
   bool wait = false, json = false;
@@ -53,7 +55,7 @@ std::string ProgressText(const mission_status_t& status);
 /// A status as members of a JSON object.
 std::vector<std::pair<std::string, JsonScalar>> StatusMembers(const mission_status_t& status);
 
-/// The verbs of the queue: run, patrol, list, cancel, pause, resume.
+/// The verbs of the queue: run, patrol, elevator, list, cancel, pause, resume.
 void AddQueueVerbs(CLI::App& mission, int& exit_code);
 
 }  // namespace priamos::cli

@@ -91,7 +91,7 @@ std::optional<Refusal> DoorMission::Start(const MissionOrder& order) {
   front_ = plan_.FindDoor(order.landmark_id);
   door_ = front_ ? std::optional(*front_) : std::nullopt;
   judge_ = false;
-  at_hold_ = false;
+  at_hold_ = leaves_ = false;
   arrived_.reset();
   blocked_ = 0;
   stood_back_ = false;
@@ -105,12 +105,14 @@ std::optional<Refusal> DoorMission::ChooseSide(const Pose2& map_from_base) {
   door_ = *front_;
   const double behind_m = (front_->map_from_door().Inverse() * map_from_base).x;
   if (behind_m <= 0) return std::nullopt;
-  if (front_->behind_id == 0)
+  const DoorPlan behind = priamos::planner::FromBehind(*front_);
+  leaves_ = planner_.CabinPlace(behind).has_value();
+  if (front_->behind_id == 0 && !leaves_)
     return Refusal{fmt::format(
         "the robot is {:.2f} m behind door '{}', and the map has no landmark there; next: give the "
         "door a behind_id",
         behind_m, front_->name)};
-  door_ = priamos::planner::FromBehind(*front_);
+  door_ = behind;
   return std::nullopt;
 }
 
@@ -165,6 +167,7 @@ void DoorMission::Wait(MissionControl& control) {
   if (!heard.link_up || !heard.pose || !IsFresh(*heard.pose, control.now())) return;
   if (const auto refusal = ChooseSide(heard.pose->map_from_base)) return control.Fail(refusal->reason);
   if (const auto refusal = planner_.CheckDoor(*door_)) return control.Fail(refusal->reason);
+  if (leaves_) return Leave(control);
   const auto path = planner_.PlanApproach(*door_, heard.pose->map_from_base);
   if (!path) return control.Fail(path.reason());
   control.SendModel(*MakeLandmark(plan_, door_->id));
@@ -174,6 +177,23 @@ void DoorMission::Wait(MissionControl& control) {
   entered_ = control.now();
   control.Enter(Phase::kApproaching, fmt::format("approaching door '{}', {:.1f} m away, at {:.2f} m/s",
                                                  door_->name, distance_m, speed_m_s));
+}
+
+/// By dead reckoning since the looks at the door from outside, as far as that is sure enough.
+void DoorMission::Leave(MissionControl& control) {
+  if (came_by_ != front_->id)
+    return control.Fail(
+        fmt::format("it did not come in through door '{}', which cannot be looked at from so "
+                    "near; next: drive it out by hand",
+                    front_->name));
+  const RobotPose& pose = *control.heard().pose;
+  const double distance_m = DistanceToDoor(control);
+  const auto prospect = decision_.Expect(*door_, pose.covariance, distance_m, distance_m);
+  if (!prospect.Fits()) return control.Fail(kTooUncertain + prospect.Text());
+  const auto path = planner_.PlanLeave(*door_, pose.map_from_base);
+  if (!path) return control.Fail(path.reason());
+  control.OrderPath(*path, config_.slowest_m_s);
+  control.Enter(Phase::kPassing, "leaving the cabin: " + prospect.Text());
 }
 
 void DoorMission::Approach(MissionControl& control) {
@@ -260,6 +280,15 @@ bool DoorMission::SetOut(MissionControl& control, double speed_m_s) {
   return static_cast<bool>(path);
 }
 
+/// Looks go on until the last place from which it can go back.
+void DoorMission::Confirm(MissionControl& control, double distance_m) {
+  if (distance_m > config_.confirm_to_m && looks_.Ready(control.now()) && !looks_.FailedTooOften()) {
+    if (distance_m < config_.one_side_m) looks_.StayOnSide(distance_m < config_.passage.commit_m);
+    AskLook(control);
+  }
+  Commit(control, distance_m);
+}
+
 /// The looks on the way may have been worse than expected; the last place from which it can go back.
 void DoorMission::Commit(MissionControl& control, double distance_m) {
   const Eigen::Matrix3d& covariance = control.heard().pose->covariance;
@@ -273,11 +302,7 @@ void DoorMission::Commit(MissionControl& control, double distance_m) {
 void DoorMission::Pass(MissionControl& control) {
   SettleLook(control);
   const double distance_m = DistanceToDoor(control);
-  if (distance_m > config_.confirm_to_m && looks_.Ready(control.now()) && !looks_.FailedTooOften()) {
-    if (distance_m < config_.one_side_m) looks_.StayOnSide(distance_m < config_.passage.commit_m);
-    AskLook(control);
-  }
-  Commit(control, distance_m);
+  if (!leaves_) Confirm(control, distance_m);
   if (!control.OnPath() || control.heard().drive->mode != DriveMode::kArrived) return;
   if (-distance_m >= planner_.PastX(*door_)) return Arrive(control);
   // The pose may be older than the report of the arrival; once it is fresh it must be behind the door.
@@ -314,6 +339,7 @@ void DoorMission::Retreat(MissionControl& control) {
 /// What stood in the door may have gone.
 void DoorMission::TryAgain(MissionControl& control) {
   if (give_up_) return control.Fail(Advised(stopped_by_));
+  if (leaves_) return Leave(control);
   looks_.Reset();
   leaf_.Reset();
   judge_ = false;
@@ -324,9 +350,11 @@ void DoorMission::TryAgain(MissionControl& control) {
 /// on its way.
 void DoorMission::Arrive(MissionControl& control) {
   if (!arrived_) arrived_ = control.now();
-  if (DoorWasNoticed(control))
+  if (DoorWasNoticed(control)) {
+    came_by_ = front_->id;
     return control.Enter(Phase::kDone, fmt::format("through the door after {:.1f} s",
                                                    Seconds(control.now() - control.started())));
+  }
   if (Seconds(control.now() - *arrived_) > config_.evidence_s)
     control.Fail("the robot believes to be behind the door, but its sonars noticed no opening there");
 }

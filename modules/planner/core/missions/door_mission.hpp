@@ -42,7 +42,8 @@ struct DoorMissionConfig {
 /// follows its path. A robot that is stopped in the door goes back to the hold point, and tries again unless
 /// it touched something: the doorway is left free. When the looks agree that the leaf leaves too narrow a
 /// way, the mission ends before the door. A door that has a landmark on its far side (`behind_id`) is passed
-/// from there in the same way, except that nothing is known of its leaf.
+/// from there in the same way, except that nothing is known of its leaf. A cabin has no room for looks on the
+/// way out: a robot that came in through this door last leaves by the pose that it was passed with.
 class DoorMission : public Mission {
  public:
   DoorMission(const DoorMissionConfig& config, const DoorPlannerConfig& planner, const Footprint& footprint,
@@ -68,10 +69,12 @@ class DoorMission : public Mission {
   std::optional<Refusal> ChooseSide(const Pose2& map_from_base);
   bool FromBehind() const { return front_ && door_->id != front_->id; }
   void Approach(MissionControl& control);
+  void Leave(MissionControl& control);
   void LookAtDoor(MissionControl& control);
   void EvaluatePose(MissionControl& control);
   /// Orders the path through the door; false: there is none, and the mission has failed.
   bool SetOut(MissionControl& control, double speed_m_s);
+  void Confirm(MissionControl& control, double distance_m);
   void Commit(MissionControl& control, double distance_m);
   void Pass(MissionControl& control);
   void Arrive(MissionControl& control);
@@ -113,6 +116,8 @@ class DoorMission : public Mission {
   bool give_up_ = false;         ///< it does not try again
   bool stood_back_ = false;      ///< it has gone back to look
   bool at_hold_ = false;         ///< it waits at the hold point: a look from there is not like those before
+  bool leaves_ = false;          ///< a cabin, without looks
+  std::optional<int> came_by_;   ///< door of the plan that was passed last
   bool judge_ = false;           ///< enough looks have succeeded: the next pose is to be judged
 };
 

@@ -5,11 +5,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/core/map/door_sides.hpp"
+
 namespace priamos::planner {
 namespace {
 
 /// Steeper approaches to the axis than this are driven only when there is no longer run-in.
 constexpr double kSteepestRunIn = 0.7;
+/// Walls so near on both sides of the base make a room a cabin [m].
+constexpr double kCabinSide_m = 1.0;
+/// Steps in which what is free behind a door is looked for [m].
+constexpr double kGoalStep_m = 0.01;
 /// A place on the axis this near to the start is where the start is.
 constexpr double kHere_m = 0.2;
 
@@ -38,6 +44,26 @@ double DoorPlanner::PastX(const DoorPlan& door) const {
   return door.BackX() + space_.footprint().length_m / 2;
 }
 
+double DoorPlanner::GoalX(const DoorPlan& door) const {
+  const double past_x = PastX(door);
+  double free_x = past_x;
+  const auto is_free = [&](double x) {
+    return space_.DistanceAt(door.map_from_door() * Pose2{x, 0, 0}) >= config_.door_margin_m;
+  };
+  while (free_x < config_.goal_m && is_free(free_x)) free_x += kGoalStep_m;
+  return free_x >= config_.goal_m ? config_.goal_m : (past_x + free_x) / 2;
+}
+
+std::optional<Pose2> DoorPlanner::CabinPlace(const DoorPlan& door) const {
+  const DoorPlan entrance = FromBehind(door);
+  const Pose2 place = entrance.map_from_door() * Pose2{GoalX(entrance), 0, 0};
+  const auto is_taken = [&](const Pose2& at) { return space_.DistanceAt(at) <= 0; };
+  const bool is_cabin = is_taken(door.map_from_door() * Pose2{HoldX(door), 0, 0}) && !is_taken(place) &&
+                        is_taken(place * Pose2{0, kCabinSide_m, 0}) &&
+                        is_taken(place * Pose2{0, -kCabinSide_m, 0});
+  return is_cabin ? std::optional(place) : std::nullopt;
+}
+
 Outcome<PlannedPath> DoorPlanner::CheckPath(const Pose2& start, std::vector<Pose2> points,
                                             std::size_t n_tight) const {
   const double start_gap_m = space_.At(start).distance_m;
@@ -64,7 +90,7 @@ std::vector<std::vector<Pose2>> DoorPlanner::PassageCandidates(const DoorPlan& d
                                                                const Pose2& start) const {
   std::vector<std::vector<Pose2>> candidates;
   const auto add = [&](std::vector<Pose2> path_in_door) {
-    path_in_door.push_back({config_.goal_m, 0, 0});
+    path_in_door.push_back({GoalX(door), 0, 0});
     for (Pose2& point : path_in_door) point = door.map_from_door() * point;
     candidates.push_back(std::move(path_in_door));
   };
@@ -119,9 +145,21 @@ Outcome<PlannedPath> DoorPlanner::PlanRetreat(const DoorPlan& door, const Pose2&
   const Pose2 door_from_start = door.map_from_door().Inverse() * map_from_start;
   if (door_from_start.x >= PastX(door))
     return Refusal{fmt::format("the robot is behind door '{}', not in it", door.name)};
+  if (const auto cabin = CabinPlace(door))
+    return PlannedPath{.points = {{cabin->x, cabin->y, map_from_start.yaw}}};
   const double hold_x = std::min(HoldX(door), door_from_start.x);
   // Wherever it may touch, it has come from the hold point: there is no better way.
   return PlannedPath{.points = {door.map_from_door() * Pose2{hold_x, 0, 0}}};
+}
+
+Outcome<PlannedPath> DoorPlanner::PlanLeave(const DoorPlan& door, const Pose2& map_from_start) const {
+  if (const auto refusal = CheckDoor(door)) return *refusal;
+  if (const auto refusal = CheckStart(door, map_from_start)) return *refusal;
+  const Pose2 door_from_start = door.map_from_door().Inverse() * map_from_start;
+  const double yaw = std::abs(door_from_start.yaw) < kPi / 2 ? 0 : kPi;
+  std::vector<Pose2> points{{door_from_start.x, 0, yaw}, {GoalX(door), 0, yaw}};
+  for (Pose2& point : points) point = door.map_from_door() * point;
+  return CheckPath(map_from_start, std::move(points), 2);
 }
 
 Outcome<PlannedPath> DoorPlanner::PlanStandBack(const DoorPlan& door, const Pose2& map_from_start,

@@ -22,7 +22,7 @@ struct DoorPlannerConfig {
   double wall_margin_m = 0.10;  ///< planned clearance everywhere else
   double align_m = 1.6;         ///< preferred place to be on the axis, straight
   double align_least_m = 1.15;  ///< nearest such place
-  double goal_m = 1.5;          ///< goal behind the door
+  double goal_m = 1.5;          ///< goal behind the door, where there is room
   double approach_m = 2.0;      ///< place on the axis that the approach leads to
   double hold_m = 1.1;          ///< free distance between footprint and wall where the approach ends
 
@@ -48,17 +48,28 @@ class DoorPlanner {
   Outcome<PlannedPath> PlanApproach(const DoorPlan& door, const Pose2& map_from_start) const;
 
   /// Path from `map_from_start`, between the hold point and the plane behind the door, straight back to the
-  /// hold point: over what the robot has just left free.
+  /// hold point, or into the cabin: over what the robot has just left free.
   Outcome<PlannedPath> PlanRetreat(const DoorPlan& door, const Pose2& map_from_start) const;
 
   /// Path from `map_from_start` straight back to the door's axis, so far before the door [m].
   Outcome<PlannedPath> PlanStandBack(const DoorPlan& door, const Pose2& map_from_start,
                                      double distance_m) const;
 
+  /// Where a base stands that has come into a cabin and has yet to turn: with walls ahead and on both sides,
+  /// and no room from which the door could be looked at on the way out. `door` as who leaves has it before
+  /// him; nullopt: he leaves no cabin.
+  std::optional<Pose2> CabinPlace(const DoorPlan& door) const;
+
+  /// Path out of a cabin, forwards or backwards as the base stands: onto the door's axis, and straight
+  /// through.
+  Outcome<PlannedPath> PlanLeave(const DoorPlan& door, const Pose2& map_from_start) const;
+
   /// Coordinate x of the hold point in the door's frame [m], negative.
   double HoldX(const DoorPlan& door) const;
   /// Coordinate x in the door's frame from which on the whole footprint is behind the wall [m].
   double PastX(const DoorPlan& door) const;
+  /// Coordinate x of the goal behind the door [m]: goal_m, or the middle of what a wall ahead leaves free.
+  double GoalX(const DoorPlan& door) const;
   /// Width that the footprint needs at least [m].
   double NeededWidth() const { return space_.footprint().width_m + 2 * config_.door_margin_m; }
 

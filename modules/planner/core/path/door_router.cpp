@@ -31,23 +31,24 @@ void DoorRouterConfig::Describe(Archive& a) {
 
 DoorRouter::DoorRouter(const DoorRouterConfig& config, const RoutePlannerConfig& route,
                        const DoorPlannerConfig& passage, const Footprint& footprint, const GroundPlan& plan)
-    : config_(config),
-      route_(route, footprint, plan),
-      passage_(passage, footprint, plan),
-      goal_m_(passage.goal_m) {
+    : config_(config), route_(route, footprint, plan), passage_(passage, footprint, plan) {
   for (const DoorPlan& door : plan.doors) {
     AddPassage(door, door.id);
-    if (door.behind_id != 0)
-      AddPassage(FromBehind(door), door.id);
+    const DoorPlan behind = FromBehind(door);
+    if (door.behind_id != 0 || passage_.CabinPlace(behind))
+      AddPassage(behind, door.id);
     else
       closed_.push_back(fmt::format("door '{}' has no landmark on its far side (behind_id)", door.name));
   }
 }
 
 void DoorRouter::AddPassage(const DoorPlan& door, int door_id) {
-  Passage passage{door, door_id, std::nullopt, door.map_from_door() * Pose2{goal_m_, 0, 0}};
+  Passage passage{door, door_id, std::nullopt, door.map_from_door() * Pose2{passage_.GoalX(door), 0, 0}};
   if (const auto refusal = passage_.CheckDoor(door)) {
     closed_.push_back(refusal->reason);
+  } else if (const auto cabin = passage_.CabinPlace(door)) {
+    passage.before = cabin;
+    passage.is_cabin = true;
   } else if (const auto places = PlacesBefore(door); places.empty()) {
     closed_.push_back(fmt::format("there is no room to stand before door '{}'", door.name));
   } else {
@@ -69,12 +70,19 @@ std::vector<Pose2> DoorRouter::PlacesBefore(const DoorPlan& door) const {
   return places;
 }
 
+/// Whether the door mission can begin at a place, however slanted it is.
+bool DoorRouter::CanBegin(const Passage& passage, const Pose2& map_from_base) const {
+  const Outcome<PlannedPath> path = passage.is_cabin ? passage_.PlanLeave(passage.door, map_from_base)
+                                                     : passage_.PlanApproach(passage.door, map_from_base);
+  return static_cast<bool>(path);
+}
+
 bool DoorRouter::StandsBefore(const Passage& passage, const Pose2& map_from_base) const {
+  if (passage.is_cabin) return CanBegin(passage, map_from_base);
   const Pose2 there = passage.door.map_from_door().Inverse() * map_from_base;
   return there.x <= passage_.HoldX(passage.door) + kStep_m &&
          std::atan2(std::abs(there.y), -there.x) <= Radians(config_.slant_deg) &&
-         std::abs(there.yaw) <= Radians(config_.turned_deg) &&
-         passage_.PlanApproach(passage.door, map_from_base);
+         std::abs(there.yaw) <= Radians(config_.turned_deg) && CanBegin(passage, map_from_base);
 }
 
 std::optional<double> DoorRouter::LengthTo(const Passage& passage, const Pose2& from) const {
@@ -204,7 +212,7 @@ std::vector<Leg> DoorRouter::PlanThrough(const Pose2& map_from_start, int door_i
 std::vector<Leg> DoorRouter::LegsThrough(const Passage& passage, const Pose2& from) {
   std::vector<Leg> legs;
   const bool on_its_side = (passage.door.map_from_door().Inverse() * from).x <= 0;
-  if (on_its_side && passage_.PlanApproach(passage.door, from)) {
+  if (on_its_side && CanBegin(passage, from)) {
     AppendLegs(passage, from, 0, legs);
   } else if (passage.before) {
     const auto way = Plan(from, {*passage.before});
@@ -214,6 +222,12 @@ std::vector<Leg> DoorRouter::LegsThrough(const Passage& passage, const Pose2& fr
     AppendLegs(passage, *passage.before, 0, legs);
   }
   return legs;
+}
+
+std::optional<Pose2> DoorRouter::PlaceInCabin(int door_id) const {
+  const auto out = std::ranges::find_if(
+      passages_, [&](const Passage& passage) { return passage.is_cabin && passage.door_id == door_id; });
+  return out == passages_.end() ? std::nullopt : out->before;
 }
 
 std::string DoorRouter::NameOf(int door_id) const {

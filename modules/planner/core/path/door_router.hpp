@@ -47,6 +47,8 @@ class DoorRouter {
   /// The legs to a door and through it, from the side to which the way is shorter. They may be the door
   /// alone, although it cannot be passed from there: why not is the door mission's to say.
   std::vector<Leg> PlanThrough(const Pose2& map_from_start, int door_id);
+  /// Where the base stands when it has come into the cabin of a door; nullopt: it leads into none.
+  std::optional<Pose2> PlaceInCabin(int door_id) const;
   /// Name of a door of the plan; its number when there is none.
   std::string NameOf(int door_id) const;
 
@@ -58,11 +60,13 @@ class DoorRouter {
     std::optional<Pose2> before;  ///< where its passage begins; nullopt: it cannot be passed from there
     Pose2 behind;                 ///< where it ends
     std::vector<Pose2> nearer{};  ///< where it may begin instead, farthest from the door first
+    bool is_cabin = false;        ///< it leads out of a cabin, in which `before` is the only place
   };
   class Search;
 
   void AddPassage(const DoorPlan& door, int door_id);
   std::vector<Pose2> PlacesBefore(const DoorPlan& door) const;
+  bool CanBegin(const Passage& passage, const Pose2& map_from_base) const;
   bool StandsBefore(const Passage& passage, const Pose2& map_from_base) const;
   /// Length of the drive to where `passage` can begin; 0 where it can at once.
   std::optional<double> LengthTo(const Passage& passage, const Pose2& from) const;
@@ -73,7 +77,6 @@ class DoorRouter {
   DoorRouterConfig config_;
   RoutePlanner route_;
   DoorPlanner passage_;
-  double goal_m_;
   std::vector<Passage> passages_;
   std::vector<std::string> closed_;  ///< why doors cannot be passed from a side
   std::map<std::pair<std::size_t, std::size_t>, std::optional<double>> between_;

@@ -13,6 +13,7 @@ namespace priamos::robot {
 struct OpeningConfig {
   double near_m = 0.35;   ///< farther things on a side are no opening's
   double least_m = 0.15;  ///< the base drove at least so far from the first to the last near echoes
+  double widen_m = 0.06;  ///< where both sides stay near, an opening ends when they are so much farther apart
 
   void Describe(Archive& a);
 };
@@ -25,8 +26,8 @@ struct Opening {
 };
 
 /// Evidence from outside that a door was passed: the sonars abeam heard something near on both sides at
-/// once, the base drove on, and a side is free again (beside the other one a leaf may stand). Wheels alone
-/// cannot bring that about.
+/// once, the base drove on, and a side is free again (beside the other one a leaf may stand), or both are
+/// clearly farther apart (a cabin). Wheels alone cannot bring that about.
 class OpeningWatch {
  public:
   OpeningWatch(const OpeningConfig& config, const Footprint& footprint)
@@ -42,13 +43,20 @@ class OpeningWatch {
     Time time{};
     Pose2 odom_from_base, map_from_base;
   };
-  std::optional<Opening> Left() const;
+  /// Cycles in which both sides were near.
+  struct Section {
+    Moment first, last;
+    double width_m = 0;  ///< least
+  };
+  std::optional<Opening> Left(const Section& section) const;
+  std::optional<Opening> EndNarrowest(const Moment& now, double width_m);
 
   OpeningConfig config_;
   Footprint footprint_;
-  std::optional<Moment> first_, last_;  ///< first and last cycle with near things on both sides
-  double width_m_ = 0;
-  int free_cycles_ = 0;  ///< since the last near things on both sides
+  std::optional<Section> near_;       ///< since a side was free
+  std::optional<Section> narrowest_;  ///< of it
+  int free_cycles_ = 0;               ///< since near_
+  int wide_cycles_ = 0;               ///< since narrowest_
 };
 
 }  // namespace priamos::robot

@@ -152,8 +152,8 @@ TEST_F(MissionCommand, WithoutAVerbTheyAreNamed) {
   EXPECT_EQ(answer.exit_code, 2);
   EXPECT_THAT(
       answer.err,
-      HasSubstr("expected a verb, got none; one of abort, cancel, corridor, door, explore, goto, list, "
-                "locate, patrol, pause, resume, run, status"));
+      HasSubstr("expected a verb, got none; one of abort, cancel, corridor, door, elevator, explore, goto, "
+                "list, locate, patrol, pause, resume, run, status"));
 }
 
 }  // namespace

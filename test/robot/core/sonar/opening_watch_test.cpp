@@ -69,5 +69,25 @@ TEST_F(OpeningWatchTest, WhoStandsOrGoesBackPassesNothing) {
   EXPECT_FALSE(Drive(0.5, -1, -1));
 }
 
+TEST_F(OpeningWatchTest, IntoACabinAndOutOfItAgain) {
+  Drive(1, 1.5, 2.0);
+  EXPECT_FALSE(Drive(0.3, 0.1, 0.11));
+  const auto into = Drive(0.6, 0.16, 0.17);
+  ASSERT_TRUE(into);
+  EXPECT_NEAR(into->width_m, 0.78 + 0.21, 1e-9);
+  EXPECT_NEAR(into->map_from_base.y, 5 + 1.18, 0.04);
+  for (int i = 0; i < 50; ++i) EXPECT_FALSE(Hear(0.16, 0.17)) << "it stands";
+  EXPECT_FALSE(Drive(0.3, 0.1, 0.11));
+  const auto out = Drive(0.3, 1.5, 2.0);
+  ASSERT_TRUE(out);
+}
+
+TEST_F(OpeningWatchTest, ACorridorThatIsNoWiderSomewhereIsNone) {
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_FALSE(Drive(0.09, 0.20, 0.21));
+    EXPECT_FALSE(Drive(0.09, 0.22, 0.23));
+  }
+}
+
 }  // namespace
 }  // namespace priamos::robot
