@@ -89,12 +89,22 @@ void CupboardPlan::Describe(Archive& a) {
   if (plinth_m >= height_m) a.Refuse("plinth_m", "less than height_m");
 }
 
+void NoGoPlan::Describe(Archive& a) {
+  a.Text("name", name, "for messages");
+  a.Number("x_m", x_m, {"m", -100, 100, "map, its middle"});
+  a.Number("y_m", y_m, {"m", -100, 100, "map, its middle"});
+  a.Number("yaw_deg", yaw_deg, {"deg", -180, 180, "map, direction of its length"});
+  a.Number("length_m", length_m, {"m", 0.05, 200, "its length"});
+  a.Number("width_m", width_m, {"m", 0.05, 200, "its width"});
+}
+
 void GroundPlan::Describe(Archive& a) {
   a.Number("wall_sigma_m", wall_sigma_m,
            {"m", 0.005, 0.32, "how well the ends of walls are known, across them, one sigma"});
   a.List("walls", walls, "straight walls, without the openings");
   a.List("doors", doors, "doors, each in a gap between two walls");
   a.List("cupboards", cupboards, "cupboards that serve as landmarks");
+  a.List("no_go", no_go, "areas of the floor that no path leads over");
   std::set<int> ids;
   for (const DoorPlan& door : doors)
     if (!ids.insert(door.id).second || (door.behind_id != 0 && !ids.insert(door.behind_id).second))

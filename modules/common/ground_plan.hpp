@@ -93,12 +93,25 @@ struct CupboardPlan {
   Pose2 map_from_cupboard() const { return {x_m, y_m, Radians(yaw_deg)}; }
 };
 
+/// A part of the floor that is not to be driven on: before a staircase, a laboratory's experiment.
+struct NoGoPlan {
+  std::string name;
+  double x_m = 0, y_m = 0;  ///< map, its middle
+  double yaw_deg = 0;       ///< map, direction of its length
+  double length_m = 1, width_m = 1;
+
+  void Describe(Archive& a);
+
+  Rectangle Shape() const { return {{x_m, y_m, Radians(yaw_deg)}, {length_m / 2, width_m / 2}}; }
+};
+
 /// The plan of a building as far as driving needs it: `config/<deployment>/maps/*.toml`.
 struct GroundPlan {
   double wall_sigma_m = 0.05;  ///< how far an end of a wall may be beside its place, one sigma
   std::vector<WallPlan> walls;
   std::vector<DoorPlan> doors;
   std::vector<CupboardPlan> cupboards;
+  std::vector<NoGoPlan> no_go;
 
   void Describe(Archive& a);
   /// Door of this id; nullptr if there is none.

@@ -31,10 +31,15 @@ Json ToJson(const CupboardPlan& cupboard) {
 }  // namespace
 
 Json ToJson(const GroundPlan& plan) {
-  Json json = {{"walls", Json::array()}, {"doors", Json::array()}, {"cupboards", Json::array()}};
+  Json json = {{"walls", Json::array()},
+               {"doors", Json::array()},
+               {"cupboards", Json::array()},
+               {"no_go", Json::array()}};
   for (const WallPlan& wall : plan.walls) json["walls"].push_back(CornersOf(wall.Shape()));
   for (const DoorPlan& door : plan.doors) json["doors"].push_back(ToJson(door));
   for (const CupboardPlan& cupboard : plan.cupboards) json["cupboards"].push_back(ToJson(cupboard));
+  for (const NoGoPlan& area : plan.no_go)
+    json["no_go"].push_back({{"name", area.name}, {"corners", CornersOf(area.Shape())}});
   return json;
 }
 

@@ -46,5 +46,13 @@ TEST(PlanJson, ACupboardStandsBehindItsFront) {
   }
 }
 
+TEST(PlanJson, ANoGoAreaHasANameAndCorners) {
+  GroundPlan plan;
+  plan.no_go.push_back({"stairs", 3, 2, 0, 2, 1});
+  const auto area = ToJson(plan)["no_go"][0];
+  EXPECT_EQ(area["name"], "stairs");
+  EXPECT_EQ(area["corners"].size(), 4u);
+}
+
 }  // namespace
 }  // namespace priamos::console

@@ -73,6 +73,7 @@ const std::vector<Call> kCalls{
     {"log info", "$LOG"},
     {"log index", "$LOG"},
     {"log filter", "$LOG $O/short.lcmlog --to 2"},
+    {"log mrpt", "$O/short.lcmlog $O/short.rawlog"},
     {"log export", "$O/short.lcmlog mcap --out $O/short.mcap"},
     {"log repair", "$O/short.lcmlog $O/whole.lcmlog"},
     {"log merge", "$LOG $SOURCE/logs/recorded/door-offboard.lcmlog $O/merged.lcmlog --offset 0"},

@@ -92,6 +92,11 @@ void DrawPlan(MapView& view, const GroundPlan& plan, bool names) {
     view.Area(layers::kCupboard, outline);
     if (names) view.Name(outline, cupboard.name, kSmallFont, colours::kWall);
   }
+  for (const NoGoPlan& area : plan.no_go) {
+    const auto outline = Outline(area.Shape());
+    view.Area(layers::kNoGo, outline);
+    if (names) view.Name(outline, area.name, kSmallFont, colours::kNoGo);
+  }
   for (const DoorPlan& door : plan.doors) {
     for (const Rectangle& part : FrameShapes(door)) view.Solid(layers::kFrame, part);
     const Vector2d post =

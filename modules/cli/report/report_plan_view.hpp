@@ -15,7 +15,7 @@ namespace colours {
 inline constexpr drawing::Colour kPaper{0xffffff}, kFloor{0xf7f5f0}, kGrid{0xe0dbd0}, kWall{0x3b4550},
     kFrame{0xa9713c}, kThing{0x8a2be2};
 inline constexpr drawing::Colour kInk{0x22282e}, kFaint{0x6b7580}, kTruth{0x1f62c4}, kBelief{0xe8741c},
-    kFix{0x12915a}, kBad{0xc0322b};
+    kFix{0x12915a}, kBad{0xc0322b}, kNoGo{0xd9780f};
 }  // namespace colours
 
 /// Every kind of thing in the picture, as it is drawn and as the legend explains it.
@@ -30,6 +30,11 @@ inline constexpr Layer kCupboard{"cupboard",
                                  "cupboard (plan)",
                                  {.line = colours::kWall, .width = 2, .fill = colours::kWall, .opacity = 0.4},
                                  Symbol::kArea};
+inline constexpr Layer kNoGo{
+    "no-go",
+    "no-go area (plan)",
+    {.line = colours::kNoGo, .width = 2, .dash = 6, .fill = colours::kNoGo, .opacity = 0.15},
+    Symbol::kArea};
 inline constexpr Layer kThing{
     "truth-thing",
     "not in the plan: truth (world)",

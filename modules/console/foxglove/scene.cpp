@@ -17,9 +17,10 @@ namespace {
 
 using Json = Scene::Json;
 
-constexpr Colour kWall{0.45, 0.5, 0.56, 0.5}, kWood{0.75, 0.5, 0.2, 0.9}, kRobotBlue{0.04, 0.36, 0.72, 1},
-    kPathViolet{0.48, 0.18, 0.71, 1}, kExpected{0.55, 0.6, 0.65, 1}, kFound{0.1, 0.65, 0.3, 1},
-    kDanger{0.8, 0.1, 0.12, 1};
+constexpr Colour kWall{0.45, 0.5, 0.56, 0.5}, kNoGo{0.85, 0.47, 0.06, 0.4}, kWood{0.75, 0.5, 0.2, 0.9},
+    kRobotBlue{0.04, 0.36, 0.72, 1}, kPathViolet{0.48, 0.18, 0.71, 1}, kExpected{0.55, 0.6, 0.65, 1},
+    kFound{0.1, 0.65, 0.3, 1}, kDanger{0.8, 0.1, 0.12, 1};
+constexpr double kNoGoHeight_m = 0.02;
 constexpr double kWallHeight_m = 1.0;  ///< cut off, so that one sees into the rooms
 constexpr double kSonarHeight_m = 0.4;
 constexpr double kSigmas = 3;
@@ -161,6 +162,11 @@ Scene::Message Scene::Plan(const GroundPlan& plan, Time now) {
     const Pose2 centre = cupboard.map_from_cupboard() * Pose2{cupboard.depth_m / 2, 0, 0};
     entity["cubes"].push_back(
         BoxJson(centre, {cupboard.depth_m, cupboard.width_m, cupboard.height_m}, kWood));
+  }
+  for (const NoGoPlan& area : plan.no_go) {
+    const Rectangle shape = area.Shape();
+    entity["cubes"].push_back(
+        BoxJson(shape.map_from_centre, {2 * shape.half_m.x(), 2 * shape.half_m.y(), kNoGoHeight_m}, kNoGo));
   }
   for (const DoorPlan& door : plan.doors) {
     const double w = door.opening_width_m / 2, h = door.opening_height_m;

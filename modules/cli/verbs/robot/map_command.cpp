@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "bus/process_config.hpp"
+#include "cli/floor/plan_grid.hpp"
 #include "cli/options/folder_options.hpp"
 #include "cli/options/verb_setup.hpp"
 #include "cli/supervise/live_deployment.hpp"
@@ -44,7 +45,7 @@ struct MapOptions {
 struct ExportOptions {
   MapOptions map;
   std::string into;
-  bool json = false;
+  bool surveyed = false, json = false;
 };
 
 struct ResetOptions {
@@ -193,16 +194,40 @@ int Show(const MapOptions& options) {
   return kNothing;
 }
 
+/// Writes a plan in the form that the file's name asks for.
+void WritePlan(const ExportOptions& options, const Maps& maps, const GroundPlan& plan) {
+  constexpr double kCell_m = 0.05;
+  const auto write = [](const fs::path& file, const std::string& text) {
+    if (!ReplaceFile(file, text, false, kMode))
+      throw ConfigError(fmt::format("into: expected a file that can be written, got \"{}\"", file.string()));
+  };
+  const fs::path into = options.into;
+  if (into.extension() == ".svg") {
+    write(into, drawing::ToSvg(DrawMap(maps.plan, options.surveyed ? LearnedWalls{} : maps.learned)));
+  } else if (into.extension() == ".yaml") {
+    const PlanGrid grid = GridOf(plan, kCell_m);
+    const fs::path image = fs::path(into).replace_extension(".pgm");
+    write(image, ToPgm(grid));
+    write(into, ToYaml(grid, image.filename()));
+  } else {
+    std::ostringstream text;
+    if (!options.surveyed)
+      text << "# What was learned of a building: walls, and narrow gaps as doors without a leaf.\n";
+    PrintConfig(text, plan);
+    write(into, text.str());
+  }
+}
+
 /// What was learned as a plan of its own, which a planner can be given as its map.
 int Export(const ExportOptions& options) {
+  const std::string extension = fs::path(options.into).extension();
+  if (extension != ".toml" && extension != ".svg" && extension != ".yaml")
+    throw ConfigError(
+        fmt::format("into: expected a file called *.toml, *.svg or *.yaml, got \"{}\"", options.into));
   const Maps maps = MapsOf(options.map);
-  const GroundPlan plan = PlanOf(maps.learned, maps.fits_m);
+  const GroundPlan plan = options.surveyed ? maps.plan : PlanOf(maps.learned, maps.fits_m);
   const bool any = !plan.walls.empty();
-  std::ostringstream text;
-  text << "# What was learned of a building: walls, and narrow gaps as doors without a leaf.\n";
-  PrintConfig(text, plan);
-  if (any && !ReplaceFile(options.into, text.str(), false, kMode))
-    throw ConfigError(fmt::format("into: expected a file that can be written, got \"{}\"", options.into));
+  if (any) WritePlan(options, maps, plan);
   if (options.json)
     std::cout << nlohmann::ordered_json{{"file", any ? nlohmann::ordered_json(options.into) : nullptr},
                                         {"walls", plan.walls.size()},
@@ -211,7 +236,10 @@ int Export(const ExportOptions& options) {
               << "\n";
   else if (any)
     std::cout << fmt::format("{}: {} walls, {} doors\n", options.into, plan.walls.size(), plan.doors.size());
-  if (!any) std::cerr << "priamos map export: nothing has been learned of this building\n";
+  if (!any)
+    std::cerr << "priamos map export: "
+              << (options.surveyed ? "the plan has no walls\n"
+                                   : "nothing has been learned of this building\n");
   return any ? 0 : kNothing;
 }
 
@@ -257,10 +285,15 @@ void AddMapCommand(CLI::App& cli, int& exit_code) {
   });
   auto export_options = std::make_shared<ExportOptions>();
   auto* as_plan = AddVerb(*map, "export",
-                          "Write what was learned as a ground plan that a planner can have as its map (exit "
-                          "code 1: nothing was learned).");
+                          "Write what was learned as a ground plan that a planner can have as its map, as a "
+                          "grid or a drawing (exit code 1: nothing was learned).");
   as_plan->footer("Example: priamos map export learned-plan.toml");
-  as_plan->add_option("into", export_options->into, "the file to write")->required();
+  as_plan
+      ->add_option("into", export_options->into,
+                   "*.toml: a ground plan; *.yaml: a grid for map_server, with its .pgm beside it; *.svg: a "
+                   "drawing")
+      ->required();
+  as_plan->add_flag("--surveyed", export_options->surveyed, "the surveyed plan in place of what was learned");
   AddLiveDeploymentOption(*as_plan, export_options->map.deployment);
   as_plan->add_option("--file", export_options->map.file, "a learned map instead of the deployment's");
   AddLogsOption(*as_plan, export_options->map.log_root, "the deployment that is up");

@@ -158,6 +158,10 @@ export class PlanView {
     const wall = colour("wall"), landmark = colour("landmark");
     for (const corners of hello.plan.walls) this.fill(corners, wall);
     for (const cupboard of hello.plan.cupboards) this.stroke(cupboard.corners, landmark, 2, true);
+    this.context.setLineDash([4, 4]);
+    for (const area of hello.plan.no_go) this.stroke(area.corners, colour("bad"), 1.5, true);
+    this.context.setLineDash([]);
+    for (const area of hello.plan.no_go) this.write(area.name, area.corners[0], colour("bad"));
     for (const door of hello.plan.doors) {
       const pose = { x: door.x_m, y: door.y_m, yaw: door.yaw_rad };
       const d = door.depth_m / 2, w = door.width_m / 2;

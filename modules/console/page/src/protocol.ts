@@ -12,6 +12,7 @@ export interface Plan {
   walls: Point[][];
   doors: Door[];
   cupboards: { id: number; name: string; corners: Point[] }[];
+  no_go: { name: string; corners: Point[] }[];
 }
 
 export interface Hello {

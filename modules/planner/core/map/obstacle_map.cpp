@@ -7,6 +7,7 @@ namespace priamos::planner {
 ObstacleMap::ObstacleMap(const GroundPlan& plan) {
   for (const WallPlan& wall : plan.walls) Add("wall '" + wall.name + "'", wall.Shape());
   for (const DoorPlan& door : plan.doors) AddFrame(door);
+  for (const NoGoPlan& area : plan.no_go) Add("no-go area '" + area.name + "'", area.Shape());
 }
 
 void ObstacleMap::Add(std::string name, const Rectangle& shape) {

@@ -119,6 +119,25 @@ TEST_F(MapCommand, ExportsAPlanThatAPlannerReads) {
   EXPECT_EQ(nowhere.exit_code, 2);
 }
 
+TEST_F(MapCommand, ExportsGridsAndDrawingsAndTheSurveyedPlan) {
+  const std::string sim = PRIAMOS_SOURCE_DIR "/config/sim";
+  const auto into = [&](const char* name) { return (folder_ / name).string(); };
+  const auto grid = Priamos({"map", "export", into("map.yaml"), "--file", file_, "--deployment", sim});
+  EXPECT_EQ(grid.exit_code, 0) << grid.err;
+  EXPECT_THAT(FileContent(into("map.yaml")), HasSubstr("image: map.pgm\nresolution: 0.050\n"));
+  EXPECT_THAT(FileContent(into("map.pgm")), testing::StartsWith("P5\n"));
+  const auto drawn = Priamos({"map", "export", into("plan.svg"), "--surveyed", "--deployment", sim});
+  EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+  EXPECT_THAT(FileContent(into("plan.svg")), HasSubstr("class=\"wall\""));
+  const auto plan = Priamos({"map", "export", into("plan.toml"), "--surveyed", "--deployment", sim});
+  EXPECT_EQ(plan.exit_code, 0) << plan.err;
+  EXPECT_EQ(LoadConfig<GroundPlan>(into("plan.toml")).walls.size(),
+            LoadConfig<GroundPlan>(sim + "/maps/door.toml").walls.size());
+  const auto other = Priamos({"map", "export", into("plan.png"), "--surveyed", "--deployment", sim});
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, HasSubstr("into: expected a file called *.toml, *.svg or *.yaml, got"));
+}
+
 TEST_F(MapCommand, WhereNothingWasLearnedItSaysSo) {
   const auto answer = Map({});
   EXPECT_EQ(answer.exit_code, 1);

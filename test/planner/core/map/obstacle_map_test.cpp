@@ -29,6 +29,15 @@ TEST(ObstacleMap, WallsAreNamed) {
   EXPECT_EQ(nearest.name, "wall 'south'");
 }
 
+TEST(ObstacleMap, ANoGoAreaIsInTheWayAsAWallIs) {
+  GroundPlan plan;
+  plan.no_go.push_back({"stairs", 3, 2, 90, 2, 1});
+  const ObstacleMap dut(plan);
+  const auto nearest = dut.NearestTo(Footprint{}.At({0, 2, 0}));
+  EXPECT_NEAR(nearest.distance_m, 2.5 - 0.475, 1e-9);
+  EXPECT_EQ(nearest.name, "no-go area 'stairs'");
+}
+
 TEST(ObstacleMap, EmptyPlanHasNoNearest) {
   const ObstacleMap dut(GroundPlan{});
   EXPECT_EQ(dut.NearestTo(Footprint{}.At({})).name, "");

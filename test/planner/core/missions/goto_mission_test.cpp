@@ -56,6 +56,21 @@ TEST(GotoMissionTest, SaysWhereItGoesAndHowFarItIs) {
   EXPECT_EQ(s.dut.state().text, "driving to (4.00, 2.40), 3.0 m");
 }
 
+TEST(GotoMissionTest, ANoGoAreaIsDrivenAroundAndNoGoal) {
+  GroundPlan plan = ShippedPlan();
+  plan.no_go.push_back({"experiment", 3.0, 2.4, 0, 0.8, 0.8});
+  Story around({1.0, 2.4, 0}, plan);
+  around.Start({{4.9, 2.4, 0}});
+  around.robot.RunFor(3);
+  ASSERT_FALSE(around.robot.paths.empty()) << around.dut.state().text;
+  EXPECT_GE(around.robot.paths[0].points.size(), 2u);
+  Story into({1.0, 2.4, 0}, plan);
+  into.Start({{3.0, 2.4, 0}});
+  into.robot.RunFor(10);
+  EXPECT_EQ(into.dut.state().phase, Phase::kFailed);
+  EXPECT_THAT(into.dut.state().text, HasSubstr("no-go area 'experiment'"));
+}
+
 TEST(GotoMissionTest, WithoutAHeadingAnyWillDo) {
   Story s({1.0, 2.4, 0.7});
   s.Start({{4.0, 1.0, 3.0}, false});
