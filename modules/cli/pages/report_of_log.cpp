@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "bus/log/log_reader.hpp"
+#include "cli/pages/log_map.hpp"
 #include "cli/report/report_looks.hpp"
 #include "cli/report/report_parts.hpp"
-#include "cli/report/report_plan_view.hpp"
-#include "common/drawing/legend.hpp"
 #include "common/drawing/svg.hpp"
 #include "common/time.hpp"
 
@@ -19,10 +17,6 @@ namespace {
 
 using drawing::Box, drawing::Drawing;
 using Eigen::Vector2d;
-
-constexpr double kWidth = 1200, kMargin = 36, kInner = kWidth - 2 * kMargin, kTallestPlan = 1000;
-constexpr drawing::Layer kHeard{
-    "heard-wall", "wall that the sonars heard", {.line = colours::kFix, .width = 4}};
 
 /// Whether a log has the robot's bus in it, by a channel that never crosses the radio.
 bool HasRobotsBus(const std::string& log) {
@@ -131,54 +125,6 @@ std::string Cards(const RunRecord& record, const MissionSpan& span) {
          Card(fmt::format("{}", record.alarms.size()), "alarms") + "</div>\n";
 }
 
-Extent ExtentOfLog(const RunRecord& record, const std::optional<GroundPlan>& plan) {
-  constexpr double kAround_m = 1.5;
-  Extent extent{{1e9, 1e9}, {-1e9, -1e9}};
-  const auto include = [&](const Vector2d& low, const Vector2d& high) {
-    extent.low = extent.low.cwiseMin(low);
-    extent.high = extent.high.cwiseMax(high);
-  };
-  const Vector2d around(kAround_m, kAround_m);
-  for (const pose_t& pose : record.poses) include(PositionOf(pose) - around, PositionOf(pose) + around);
-  if (plan) {
-    const Extent of_plan = ExtentOf(*plan);
-    include(of_plan.low, of_plan.high);
-  }
-  return extent.low.x() > extent.high.x() ? Extent{} : extent;
-}
-
-/// The newest message about each wall; one that is gone is not drawn.
-void DrawWalls(MapView& view, const RunRecord& record) {
-  std::map<std::pair<std::int32_t, std::int16_t>, feature_t> walls;
-  for (const features_t& message : record.features)
-    for (const feature_t& feature : message.features) walls[{message.store, feature.id}] = feature;
-  for (const auto& [id, wall] : walls) {
-    if (wall.kind != feature_t::WALL) continue;
-    const Vector2d middle(wall.x_m, wall.y_m), along(std::cos(wall.yaw_rad), std::sin(wall.yaw_rad));
-    view.Line(kHeard, {middle - along * wall.length_m / 2, middle + along * wall.length_m / 2});
-  }
-}
-
-Drawing DrawLog(const RunRecord& record, const std::optional<GroundPlan>& plan) {
-  const Extent extent = ExtentOfLog(record, plan);
-  const double scale = std::min(kInner / extent.size().x(), kTallestPlan / extent.size().y());
-  Drawing page(kWidth, 0, colours::kPaper);
-  const Box window{kMargin + (kInner - scale * extent.size().x()) / 2, kMargin, scale * extent.size().x(),
-                   scale * extent.size().y()};
-  MapView view(page, window, extent.centre(), scale);
-  DrawFloor(view, extent);
-  if (plan) DrawPlan(view, *plan, true);
-  DrawWalls(view, record);
-  DrawEllipses(view, record);
-  DrawTruth(view, record);
-  DrawBelief(view, record);
-  view.SetLabels();
-  const double height =
-      drawing::WriteLegend(page, kMargin, window.bottom() + kMargin, kInner, {kBodyFont, colours::kInk});
-  page.SetHeight(window.bottom() + height + 2 * kMargin);
-  return page;
-}
-
 }  // namespace
 
 RunRecord RecordOfLogs(const std::vector<std::string>& logs) {
@@ -198,7 +144,7 @@ std::string LogPage(const std::string& title, const RunRecord& record,
   const bool good = std::all_of(endings.begin(), endings.end(), [](const Ending& e) { return e.done; });
   std::string page = PageHead(title, good, VerdictOf(endings)) + Failures(endings) + Cards(record, span);
   page += Picture("Believed path with its uncertainty, walls that were heard, and the plan; legend",
-                  drawing::ToSvg(DrawLog(record, plan)));
+                  drawing::ToSvg(DrawLogMap(record, plan, ExtentOfLog(record, plan))));
   if (!record.mission.empty()) page += "<h2>Missions</h2>\n" + MissionTable(record, span.begin_utime);
   const std::string alarms = AlarmTable(record, span.begin_utime), looks = LookDrawings(record);
   page += "<h2>Alarms</h2>\n" + (alarms.empty() ? "<p>None.</p>\n" : alarms);
