@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "test/support/generated_numbers.hpp"
@@ -167,6 +168,22 @@ TEST_F(PoseProposalsTest, PosesThatHardlyDifferAreOne) {
   EXPECT_EQ(Propose().poses.size(), 3u);
   options_.merge_m = options_.merge_rad = 0.1;
   EXPECT_EQ(Propose().poses.size(), 1u);
+}
+
+TEST_F(PoseProposalsTest, ALineBesideTheRightOneIsAnotherPose) {
+  // All three edges once more, 12 mm to the side, as the frames of doors beside the arrises of a cupboard.
+  const auto twins = Seen(model_, {kTruth.x, kTruth.y + 0.012, kTruth.yaw});
+  for (int i = 0; i < 3; ++i) {
+    verticals_.push_back(twins[i]);
+    verticals_.back().left = verticals_.back().right = 10 + i;
+  }
+  const Proposals dut = Propose();
+  for (const double aside_m : {0.0, 0.012}) {
+    const Pose2 wanted{kTruth.x, kTruth.y + aside_m, kTruth.yaw};
+    EXPECT_TRUE(std::any_of(dut.poses.begin(), dut.poses.end(), [&](const PoseProposal& p) {
+      return Apart(p.base_from_landmark, wanted) < 0.005;
+    })) << aside_m;
+  }
 }
 
 TEST_F(PoseProposalsTest, NothingSeenNothingProposed) {
