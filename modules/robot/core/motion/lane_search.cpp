@@ -149,15 +149,24 @@ Outmost OutmostOf(std::span<const std::optional<LaneBegin>> begins) {
   return outmost;
 }
 
+/// Whether no lane leads a base, with `half` its half size and margin, to what is seen there.
+bool IsBeyondLanes(const Eigen::Vector2d& across, const Eigen::Vector2d& seen, const Eigen::Vector2d& half) {
+  constexpr double kOutmost_m = (kMiddle + 1) * kLaneStep_m;
+  return (seen.cwiseAbs() - half - kOutmost_m * across.cwiseAbs()).maxCoeff() > 0;
+}
+
 /// What a metre of the path costs beside a station, per lane; kNowhere where the base may not be.
 Lanes CostsAt(const LaneSearch& search, const Outmost& outmost, const Station& station) {
   const DetourConfig& config = search.config;
   Lanes near{};
   const Eigen::Vector2d half = search.footprint.Size() / 2;
   const auto margins = MarginsFor(station.leeway, config, search.taken);
+  const Eigen::Vector2d widest = half + Eigen::Vector2d::Constant(margins.front().first);
   std::vector<LaneCount> counts(margins.size());
   for (const Eigen::Vector2d& thing : search.things) {
-    const Meeting meeting(station.across, station.base_from_map * thing);
+    const Eigen::Vector2d seen = station.base_from_map * thing;
+    if (IsBeyondLanes(station.across, seen, widest)) continue;
+    const Meeting meeting(station.across, seen);
     for (std::size_t m = 0; m < margins.size(); ++m) {
       const auto offsets = meeting.Within(half + Eigen::Vector2d::Constant(margins[m].first));
       if (offsets.first > offsets.second) break;  // with smaller margins neither

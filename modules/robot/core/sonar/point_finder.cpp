@@ -138,8 +138,9 @@ Vector2d PointFinder::Refined(Vector2d place) const {
 
 std::vector<PlacedEcho> PointFinder::Supporters(const Vector2d& place, double gate_m) const {
   std::vector<PlacedEcho> echoes;
-  for (std::size_t i = 0; i < waiting_.size(); ++i)
-    if (MayComeFrom(waiting_[i], place, gate_m, config_.fit)) echoes.push_back(waiting_[i]);
+  waiting_.ForEach([&](const PlacedEcho& echo, std::size_t) {
+    if (MayComeFrom(echo, place, gate_m, config_.fit)) echoes.push_back(echo);
+  });
   if (echoes.size() > kMostOfOne) echoes.erase(echoes.begin(), echoes.end() - kMostOfOne);
   return echoes;
 }

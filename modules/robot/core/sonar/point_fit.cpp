@@ -126,9 +126,11 @@ void PointFitConfig::Describe(Archive& a) {
 }
 
 bool MayComeFrom(const PlacedEcho& echo, const Vector2d& place, double gate_m, const PointFitConfig& config) {
-  const Vector2d there = echo.odom_from_sonar.Inverse() * place;
-  return std::abs(there.norm() - echo.range_m) < gate_m &&
-         std::abs(std::atan2(there.y(), there.x())) < Radians(config.off_axis_deg);
+  const Vector2d off = place - echo.odom_from_sonar.translation();
+  // The distance first: it refuses most, and is cheap.
+  if (!(std::abs(off.norm() - echo.range_m) < gate_m)) return false;
+  const double bearing_rad = WrapAngle(std::atan2(off.y(), off.x()) - echo.odom_from_sonar.yaw);
+  return std::abs(bearing_rad) < Radians(config.off_axis_deg);
 }
 
 double PointOverLine(const std::vector<PlacedEcho>& echoes, const Vector2d& near, const RangeNoise& noise) {

@@ -151,14 +151,13 @@ std::vector<PlacedEcho> SegmentFinder::Supporters(const VotedLine& line, const P
   const Eigen::Vector2d normal(std::cos(line.angle_rad), std::sin(line.angle_rad)),
       along(-normal.y(), normal.x());
   std::vector<std::pair<double, std::size_t>> feet;
-  for (std::size_t i = 0; i < waiting_.size(); ++i) {
-    const PlacedEcho& echo = waiting_[i];
+  waiting_.ForEach([&](const PlacedEcho& echo, std::size_t i) {
     const Eigen::Vector2d foot = echo.Foot(normal);
+    // The distance first: it refuses most, and is cheap.
+    if (!(std::abs(normal.dot(foot) - line.distance_m) < kNearLine_m)) return;
     const double off_axis = std::abs(WrapAngle(line.angle_rad - echo.odom_from_sonar.yaw));
-    if (std::abs(normal.dot(foot) - line.distance_m) < kNearLine_m &&
-        off_axis < Radians(config_.segment.range.most_bearing_deg))
-      feet.emplace_back(along.dot(foot), i);
-  }
+    if (off_axis < Radians(config_.segment.range.most_bearing_deg)) feet.emplace_back(along.dot(foot), i);
+  });
   std::sort(feet.begin(), feet.end());
   const double own_m = along.dot(newest.Foot(normal));
   std::vector<std::size_t> together;

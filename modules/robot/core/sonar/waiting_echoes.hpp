@@ -45,6 +45,12 @@ class WaitingEchoes {
 
   const Votes& votes() const { return votes_; }
   std::size_t size() const { return waiting_.size(); }
+  /// Calls visit(echo, its index), oldest first: much faster than by index.
+  template <class Visit>
+  void ForEach(const Visit& visit) const {
+    std::size_t index = 0;
+    for (const Waiting& waiting : waiting_) visit(waiting.echo, index++);
+  }
   const PlacedEcho& operator[](std::size_t i) const { return waiting_[i].echo; }
 
  private:
