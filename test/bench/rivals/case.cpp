@@ -102,6 +102,38 @@ void AddOpening(Draft& draft) {
   draft.instead = {believed * Pose2{-1.2, 0, 0}, believed * Pose2{1.2, 0, 0}};
 }
 
+/// A thing across the hall from wall to wall, and the way that it leaves, between `low_m` and `high_m` across.
+void AddAcross(Draft& draft, const Pose2& middle, double low_m, double high_m) {
+  static const std::vector<std::string> kMaterials{"wood", "plaster", "cardboard"};
+  const std::string& material = kMaterials.at(draft.rng.Below(kMaterials.size()));
+  const double thick_m = draft.rng.Uniform(0.05, 0.3), slope = std::cos(middle.yaw);
+  const auto add = [&](double from_m, double to_m) {
+    if (to_m - from_m < thick_m) return;
+    const Vector2d at = middle * Vector2d(0, ((from_m + to_m) / 2 - middle.y) / slope);
+    draft.world.boxes.push_back(
+        Box(material, at, Degrees(middle.yaw), {thick_m, (to_m - from_m) / slope}));
+  };
+  add(0.05, low_m);
+  add(high_m, kWidth_m - 0.05);
+}
+
+/// Ways of 1.1 to 1.3 m beside things that reach across the hall: along its wall, beside the line to the
+/// goal, or two of these in turns.
+void AddWays(Draft& draft) {
+  const auto kind = draft.rng.Below(3);
+  const double side = draft.rng.Chance(0.5) ? 1 : -1, wide_m = draft.rng.Uniform(1.1, 1.3);
+  const double line_m = kind == 0 ? kWidth_m / 2 + side * draft.rng.Uniform(0.9, 1.4) : draft.start.y;
+  draft.start.y = draft.goal.y = line_m;
+  const auto across = [&](double x_m, double beside_m) {
+    const Pose2 middle{x_m, line_m, Radians(draft.rng.Uniform(-8, 8))};
+    AddAcross(draft, middle, line_m + beside_m - wide_m / 2, line_m + beside_m + wide_m / 2);
+  };
+  const double x_m = draft.rng.Uniform(3.6, 4.4), beside_m = side * draft.rng.Uniform(0.2, 1.2);
+  if (kind == 0) across(x_m, (kWidth_m + side * (kWidth_m - wide_m)) / 2 - line_m);
+  if (kind > 0) across(x_m, beside_m);
+  if (kind == 2) across(x_m + draft.rng.Uniform(2.0, 2.4), -beside_m);
+}
+
 /// A smooth partition that leans into the way: its far end reaches across the middle of it.
 void AddPartition(Draft& draft) {
   constexpr double kLong_m = 2.5;
@@ -188,7 +220,7 @@ Case GeneratedCorridor(std::uint64_t seed) {
 const std::map<std::string, void (*)(Draft&)>& Makers() {
   static const std::map<std::string, void (*)(Draft&)> makers{
       {"free", Nothing},           {"box", AddBox},         {"posts", AddPosts},   {"opening", AddOpening},
-      {"partition", AddPartition}, {"clutter", AddClutter}, {"person", AddPerson}, {"crossing", AddCrossing}};
+      {"ways", AddWays},           {"partition", AddPartition}, {"clutter", AddClutter}, {"person", AddPerson}, {"crossing", AddCrossing}};
   return makers;
 }
 
@@ -210,6 +242,7 @@ const std::vector<Family>& Families() {
       {"box", "the same, a carton of 35 cm on the way"},
       {"posts", "five metal posts of 4 to 15 cm around the way"},
       {"opening", "a wall across, an opening of 0.9 to 1.5 m, up to 25 degrees askew"},
+      {"ways", "things across that leave ways of 1.1 to 1.3 m, one or two in turns"},
       {"partition", "a smooth metal partition that leans into the way at 10 to 35 degrees"},
       {"clutter", "8 to 14 cartons, cupboards, bins and posts; the circle around the base gets through"},
       {"person", "somebody walks across to and fro, 0.5 to 1.2 m/s, every other one does not look"},
