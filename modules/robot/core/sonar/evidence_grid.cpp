@@ -13,12 +13,6 @@ constexpr double kThick_m = 0.04;
 /// What lies less than this before an echo may be the thing itself.
 constexpr double kBefore_m = 0.15;
 constexpr double kMost = 3;  ///< log odds: what was seen for long is forgotten in seconds when it has gone
-/// A place on an arc with evidence less by so much is not what was heard, and loses so much per echo.
-constexpr double kOther = 1, kDoubt = 0.05;
-/// A smooth face is heard along its normal alone: in directions farther off than this from those in which a
-/// place was heard, a beam that goes through it says only so much.
-constexpr double kSameDirection = 0.9397, kSlanted = 0.1;  // cosine of 20 degrees
-constexpr double kNewest = 0.3;  ///< share of the newest echo in the direction in which a place was heard
 
 int CellOf(double metres) {
   return static_cast<int>(std::floor(metres / kCell_m));
@@ -46,17 +40,11 @@ void EvidenceGridConfig::Describe(Archive& a) {
 }
 
 EvidenceGrid::EvidenceGrid(const EvidenceGridConfig& config)
-    : config_(config), cells_(std::size_t(kSide) * kSide), is_thing_(cells_.size()) {}
+    : config_(config), cells_(static_cast<std::size_t>(kSide * kSide)) {}
 
 EvidenceGrid::Cell& EvidenceGrid::At(int x, int y) {
   Cell& cell = cells_[Wrapped(y) * kSide + Wrapped(x)];
-  if (cell.x != x || cell.y != y) cell = {.x = x, .y = y};
-  return cell;
-}
-
-EvidenceGrid::Cell& EvidenceGrid::Fresh(int x, int y, Time now) {
-  Cell& cell = At(x, y);
-  if (now - cell.renewed > FromSeconds(config_.keep_s)) cell = {.x = x, .y = y};
+  if (cell.x != x || cell.y != y) cell = {x, y, 0, {}};
   return cell;
 }
 
@@ -75,57 +63,33 @@ void EvidenceGrid::Add(const Pose2& odom_from_sonar, double range_m, Time now) {
           .inverse();
   const Echo echo{sonar_from_odom, range_m, std::tan(Radians(config_.half_beam_deg)),
                   std::tan(Radians(config_.through_deg))};
-  arc_.clear();
   for (int y = CellOf(low.y()); y <= CellOf(high.y()); ++y)
     for (int x = CellOf(low.x()); x <= CellOf(high.x()); ++x) Weigh(x, y, echo, now);
-  Share(range_m, now);
 }
 
-/// Clears a cell that the beam goes through, and takes one on its arc for later.
 void EvidenceGrid::Weigh(int x, int y, const Echo& echo, Time now) {
   const Eigen::Vector2d seen = echo.sonar_from_odom * Centre(x, y);
   const double distance_m = seen.norm(), beside_m = std::abs(seen.y());
   if (distance_m > config_.reach_m || beside_m > echo.beam * seen.x()) return;
-  const bool on_arc = std::abs(distance_m - echo.range_m) <= kThick_m;
-  const bool through = distance_m < echo.range_m - kBefore_m && beside_m <= echo.through * seen.x();
-  if (!on_arc && !through) return;
-  Cell& cell = Fresh(x, y, now);
-  const Eigen::Vector2d along = echo.sonar_from_odom.linear().transpose() * seen / distance_m;
-  if (on_arc) return arc_.push_back({&cell, along});
-  const bool as_heard = cell.log_odds <= 0 || cell.heard_along.isZero() ||
-                        along.dot(cell.heard_along.normalized()) >= kSameDirection;
-  Change(cell, -config_.miss * (as_heard ? 1 : kSlanted), now);
-}
-
-/// An echo is of one thing: the places on its arc share it in the ratio of their odds, so that the rest of
-/// the arc of a thing that is known does not become one, too.
-void EvidenceGrid::Share(double range_m, Time now) {
-  const double arc_m = 2 * Radians(config_.half_beam_deg) * range_m;
-  const double hit = config_.hit * std::min(1.0, config_.sure_arc_m / arc_m);
-  double most = 0;
-  for (const OnArc& place : arc_) most = std::max(most, place.cell->log_odds);
-  for (const auto& [cell, along] : arc_) {
-    const double less = most - cell->log_odds;
-    const Eigen::Vector2d before = cell->log_odds > 0 ? cell->heard_along : Eigen::Vector2d(0, 0);
-    cell->heard_along = (1 - kNewest) * before + kNewest * along;
-    const double change = hit * std::exp(-less) - (less > kOther ? kDoubt : 0);
-    Change(*cell, change, now);
+  double change = 0;
+  if (std::abs(distance_m - echo.range_m) <= kThick_m) {
+    const double arc_m = 2 * Radians(config_.half_beam_deg) * echo.range_m;
+    change = config_.hit * std::min(1.0, config_.sure_arc_m / arc_m);
+  } else if (distance_m < echo.range_m - kBefore_m && beside_m <= echo.through * seen.x()) {
+    change = -config_.miss;
   }
-}
-
-void EvidenceGrid::Change(Cell& cell, double by, Time now) {
-  cell.log_odds = std::clamp(cell.log_odds + by, -kMost, kMost);
+  if (change == 0) return;
+  Cell& cell = At(x, y);
+  if (now - cell.renewed > FromSeconds(config_.keep_s)) cell.log_odds = 0;
+  cell.log_odds = std::clamp(cell.log_odds + change, -kMost, kMost);
   cell.renewed = now;
-  is_thing_[std::size_t(&cell - cells_.data())] = cell.log_odds >= config_.thing;
 }
 
 std::vector<Eigen::Vector2d> EvidenceGrid::Things(const Pose2& odom_from_base, Time now) const {
   const Pose2 base_from_odom = odom_from_base.Inverse();
   std::vector<Eigen::Vector2d> things;
-  for (std::size_t i = 0; i < cells_.size(); ++i) {
-    if (!is_thing_[i]) continue;
-    const Cell& cell = cells_[i];
-    if (now - cell.renewed > FromSeconds(config_.keep_s)) continue;
+  for (const Cell& cell : cells_) {
+    if (cell.log_odds < config_.thing || now - cell.renewed > FromSeconds(config_.keep_s)) continue;
     const Eigen::Vector2d thing = base_from_odom * Centre(cell.x, cell.y);
     // Cells that are far away have not been touched since their place in memory was left.
     if (thing.norm() < kSide * kCell_m / 2) things.push_back(thing);

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <cstdint>
 #include <vector>
 
 #include "common/archive.hpp"
@@ -27,10 +26,9 @@ struct EvidenceGridConfig {
 
 /// Evidence of the sonars for things around the base: log odds in cells of 5 cm, frame of the odometry
 /// (Moravec and Elfes, "High resolution maps from wide angle sonar", ICRA 1985). An echo speaks for all cells
-/// of its arc, a little for each where the arc is wide, and against those before it. Where something on the
-/// arc is known the echo is taken to be of that. So a thing gets its place when it is heard from several
-/// places, and is gone when a beam sees what is behind it, in the direction in which it was heard. For
-/// planning; what keeps the base off things does not wait for evidence.
+/// of its arc, a little for each where the arc is wide, and against those before it. So a thing gets its
+/// place when it is heard from several places, and is gone when a beam sees what is behind it. For planning;
+/// what keeps the base off things does not wait for evidence.
 class EvidenceGrid {
  public:
   explicit EvidenceGrid(const EvidenceGridConfig& config);
@@ -46,13 +44,6 @@ class EvidenceGrid {
     int x = 0, y = 0;
     double log_odds = 0;
     Time renewed{};
-    /// Mean of the unit vectors from sensors that heard it, frame of the odometry.
-    Eigen::Vector2d heard_along{0, 0};
-  };
-  /// A cell on the arc of an echo, and the unit vector from the sensor to it.
-  struct OnArc {
-    Cell* cell = nullptr;
-    Eigen::Vector2d along{0, 0};
   };
   /// An echo, and the slopes of the edges of what it speaks for and of what it clears.
   struct Echo {
@@ -60,15 +51,10 @@ class EvidenceGrid {
     double range_m = 0, beam = 0, through = 0;
   };
   Cell& At(int x, int y);
-  Cell& Fresh(int x, int y, Time now);
   void Weigh(int x, int y, const Echo& echo, Time now);
-  void Share(double range_m, Time now);
-  void Change(Cell& cell, double by, Time now);
 
   EvidenceGridConfig config_;
   std::vector<Cell> cells_;
-  std::vector<std::uint8_t> is_thing_;  ///< of each cell; apart, since all are looked through at once
-  std::vector<OnArc> arc_;  ///< of the echo that is being weighed
 };
 
 }  // namespace priamos::robot

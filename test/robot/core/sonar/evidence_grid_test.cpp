@@ -73,24 +73,6 @@ TEST_F(EvidenceGridTest, BeamsFromTwoPlacesNarrowAThing) {
   EXPECT_LT(Breadth(), one);
 }
 
-TEST_F(EvidenceGridTest, AnArcThroughAKnownThingMakesNoSecondOne) {
-  Hear({0.8, 0, 0}, 0.2, 10);  // at (1, 0), from near
-  const double before = Breadth();
-  Hear({}, 1.0, 10);  // an arc of 26 cm through it
-  EXPECT_LT(Breadth(), before + 0.05);
-}
-
-TEST_F(EvidenceGridTest, ABeamAtASlantHardlyClearsWhatWasHeardAlongItsNormal) {
-  Hear({}, 1.0, 10);
-  const std::size_t before = Things().size();
-  // The smooth face throws the sound elsewhere, and what is behind the base is heard by the way.
-  const Pose2 aslant{1 - std::cos(Radians(50)), -std::sin(Radians(50)), Radians(50)};
-  Hear(aslant, 2.4, 20);
-  EXPECT_EQ(Things().size(), before);
-  Hear({}, 2.4, 20);
-  EXPECT_LT(Things().size(), before) << "it has gone";
-}
-
 TEST_F(EvidenceGridTest, StaysInPlaceWhileTheBaseMoves) {
   Hear({}, 1.0, 5);
   const auto here = Things(), there = Things({0.5, 0, kPi / 2});
