@@ -68,13 +68,20 @@ FeatureStore& FeatureReporter::Store(Time now) {
 std::vector<const FoundSegment*> FeatureReporter::Hear(const SonarCycle& cycle, const Localiser& localiser,
                                                        Time now) {
   if (!localiser.estimate()) return {};
+  HearPoints(localiser, now);
   auto changed = finder_.Add(cycle, localiser.OdometryPoseAt(cycle.time),
                              [&](const PlacedEcho& echo) { return points_.Explains(echo); });
   for (const FoundSegment* found : changed) Store(now).Note(*found, BaseBy(localiser));
-  for (const FoundPoint* found : points_.Add(finder_.unexplained(), cycle.time))
+  points_heard_ = cycle.time;
+  return changed;
+}
+
+void FeatureReporter::HearPoints(const Localiser& localiser, Time now) {
+  if (!points_heard_ || !localiser.estimate()) return;
+  for (const FoundPoint* found : points_.Add(finder_.unexplained(), *points_heard_))
     Store(now).Note(*found, BaseBy(localiser));
   for (const int number : points_.SeeThrough(finder_.heard())) Store(now).NoteGone(number);
-  return changed;
+  points_heard_.reset();
 }
 
 void FeatureReporter::Tick(const Localiser& localiser, Time now) {

@@ -23,6 +23,9 @@ class FeatureReporter {
   /// Takes a cycle of the ring, heard where `localiser` has the base. Returns the walls that it found or that
   /// grew by it.
   std::vector<const FoundSegment*> Hear(const SonarCycle& cycle, const Localiser& localiser, Time now);
+  /// Looks for corners and edges in the cycle that was given last, once: a step later, since both at once
+  /// take long.
+  void HearPoints(const Localiser& localiser, Time now);
   /// Takes acknowledgements, and sends what is due.
   void Tick(const Localiser& localiser, Time now);
 
@@ -35,6 +38,7 @@ class FeatureReporter {
   bus::Context& context_;
   SegmentFinder finder_;
   PointFinder points_;
+  std::optional<Time> points_heard_;   ///< of the cycle in which points are still to be looked for
   std::optional<FeatureStore> store_;  ///< begins with the first cycle: its name is that time
   int lost_ = 0;
   bus::Inbox<features_ack_t> acks_;

@@ -91,7 +91,8 @@ void RobotApp::Tick(Time now) {
   TakeEstops(now);
   TakeWheels(now);
   TakeTouchSensors(now);
-  TakeSonars(now);
+  MapSonars(now);
+  TakeSonars();
   TakeFloorLines(now);
   TakeSeenThings();
   corrector_.Tick(localiser_, drive_, now);
@@ -130,17 +131,25 @@ void RobotApp::TakeTouchSensors(Time now) {
     drive_.touch_watch().AddBumper(static_cast<std::uint8_t>(message.pressed), now);
 }
 
-void RobotApp::TakeSonars(Time now) {
+/// Walls in the step after a cycle was heard, corners and edges in the next: all in one would be the longest
+/// step.
+void RobotApp::MapSonars(Time now) {
+  if (!to_map_) return features_.HearPoints(localiser_, now);
+  for (const FoundSegment* found : features_.Hear(*to_map_, localiser_, now)) {
+    const WallSegment& wall = found->wall;
+    drive_.AddWall(found->number, {wall.from(), wall.to(), std::sqrt(wall.line().covariance(0, 0))});
+  }
+  to_map_.reset();
+}
+
+void RobotApp::TakeSonars() {
   const auto message = sonars_.Take();
   if (!message) return;
   const SonarCycle cycle = FromMessage(*message);
   const Pose2& odom_from_base = localiser_.odometry().pose();
   drive_.AddSonar(cycle, odom_from_base);
   localiser_.AddSonar(cycle);
-  for (const FoundSegment* found : features_.Hear(cycle, localiser_, now)) {
-    const WallSegment& wall = found->wall;
-    drive_.AddWall(found->number, {wall.from(), wall.to(), std::sqrt(wall.line().covariance(0, 0))});
-  }
+  to_map_ = cycle;
   const auto estimate = localiser_.estimate();
   if (!estimate) return;
   if (const auto opening = opening_watch_.Add(cycle, odom_from_base, estimate->pose)) {

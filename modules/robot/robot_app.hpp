@@ -42,7 +42,8 @@ class RobotApp {
  private:
   void TakeWheels(Time now);
   void TakeTouchSensors(Time now);
-  void TakeSonars(Time now);
+  void MapSonars(Time now);
+  void TakeSonars();
   void TakeFloorLines(Time now);
   void TakeSeenThings();
   void TakePaths(Time now);
@@ -70,6 +71,7 @@ class RobotApp {
   DriveController drive_;
   OpeningWatch opening_watch_;
   FeatureReporter features_;
+  std::optional<SonarCycle> to_map_;  ///< heard in the last step
   PoseCorrector corrector_;
   DriveReporter reporter_;
   std::optional<Opening> passed_;  ///< newest

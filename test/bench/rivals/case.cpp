@@ -102,7 +102,8 @@ void AddOpening(Draft& draft) {
   draft.instead = {believed * Pose2{-1.2, 0, 0}, believed * Pose2{1.2, 0, 0}};
 }
 
-/// A thing across the hall from wall to wall, and the way that it leaves, between `low_m` and `high_m` across.
+/// A thing across the hall from wall to wall, and the way that it leaves, between `low_m` and `high_m`
+/// across.
 void AddAcross(Draft& draft, const Pose2& middle, double low_m, double high_m) {
   static const std::vector<std::string> kMaterials{"wood", "plaster", "cardboard"};
   const std::string& material = kMaterials.at(draft.rng.Below(kMaterials.size()));
@@ -110,8 +111,7 @@ void AddAcross(Draft& draft, const Pose2& middle, double low_m, double high_m) {
   const auto add = [&](double from_m, double to_m) {
     if (to_m - from_m < thick_m) return;
     const Vector2d at = middle * Vector2d(0, ((from_m + to_m) / 2 - middle.y) / slope);
-    draft.world.boxes.push_back(
-        Box(material, at, Degrees(middle.yaw), {thick_m, (to_m - from_m) / slope}));
+    draft.world.boxes.push_back(Box(material, at, Degrees(middle.yaw), {thick_m, (to_m - from_m) / slope}));
   };
   add(0.05, low_m);
   add(high_m, kWidth_m - 0.05);
@@ -219,8 +219,9 @@ Case GeneratedCorridor(std::uint64_t seed) {
 
 const std::map<std::string, void (*)(Draft&)>& Makers() {
   static const std::map<std::string, void (*)(Draft&)> makers{
-      {"free", Nothing},           {"box", AddBox},         {"posts", AddPosts},   {"opening", AddOpening},
-      {"ways", AddWays},           {"partition", AddPartition}, {"clutter", AddClutter}, {"person", AddPerson}, {"crossing", AddCrossing}};
+      {"free", Nothing},       {"box", AddBox},       {"posts", AddPosts},
+      {"opening", AddOpening}, {"ways", AddWays},     {"partition", AddPartition},
+      {"clutter", AddClutter}, {"person", AddPerson}, {"crossing", AddCrossing}};
   return makers;
 }
 
