@@ -10,7 +10,8 @@ constexpr std::chrono::seconds kBetweenTries{1};
 
 }  // namespace
 
-EstopMemory::EstopMemory(std::string path) : file_(std::move(path)), why_latched_(WhyLatched(file_.Load())) {}
+EstopMemory::EstopMemory(std::string path)
+    : file_(std::move(path)), last_(file_.Load()), why_latched_(WhyLatched(last_)) {}
 
 void EstopMemory::Begin(bool estop) {
   file_.Save(estop ? LastWord::kEstop : LastWord::kRunning);

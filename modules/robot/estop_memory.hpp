@@ -15,6 +15,8 @@ class EstopMemory {
   /// LastWordFile::Load does.
   explicit EstopMemory(std::string path);
 
+  /// Whether the process before was killed, or lost its power, while it could drive.
+  bool crashed() const { return last_ == LastWord::kRunning; }
   /// Why the base starts with the e-stop latched; empty when it does not.
   const std::string& why_latched() const { return why_latched_; }
 
@@ -31,6 +33,7 @@ class EstopMemory {
 
  private:
   LastWordFile file_;
+  LastWord last_;
   std::string why_latched_;
   std::optional<Time> again_;  ///< a failed Keep is tried again
 };

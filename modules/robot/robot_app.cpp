@@ -33,6 +33,20 @@ std::string_view Refusal(PathVerdict verdict) {
   return "";
 }
 
+/// What somebody has to do after a crash, beside re-arming.
+constexpr const char* kSayWhere =
+    ", and say where it stands with priamos place, or have it look with priamos mission locate";
+
+/// After a crash the base may be anywhere near: where it started no longer counts. So far off a planner takes
+/// it for lost, and its walls and doors for no proof of where it is.
+LocaliserConfig StartAfter(const EstopMemory& memory, LocaliserConfig config) {
+  constexpr double kAnywhere_m = 3, kAnyhow_deg = 45;
+  if (!memory.crashed()) return config;
+  config.estimator.initial.position_error_m = kAnywhere_m;
+  config.estimator.initial.yaw_error_deg = kAnyhow_deg;
+  return config;
+}
+
 }  // namespace
 
 RobotApp::RobotApp(const RobotConfig& config, bus::Context& context)
@@ -41,7 +55,7 @@ RobotApp::RobotApp(const RobotConfig& config, bus::Context& context)
       estop_memory_(config.state_file.empty() ? "" : context.ResolvePath(config.state_file)),
       status_rate_(config.status_rate_hz),
       opening_rate_(kOpeningRate_hz),
-      localiser_(config.localiser, config.base, config.drive.footprint),
+      localiser_(StartAfter(estop_memory_, config.localiser), config.base, config.drive.footprint),
       drive_(config.drive, config.base),
       opening_watch_(config.opening, config.drive.footprint),
       features_(config, context),
@@ -83,7 +97,8 @@ void RobotApp::Begin(Time now) {
   drive_.CountEstopChangesFrom(now);
   estop_memory_.Begin(drive_.estop());
   if (const auto& why = estop_memory_.why_latched(); !why.empty())
-    context_.Log(bus::Level::kWarning, fmt::format("the e-stop is latched: {}; re-arm to drive", why));
+    context_.Log(bus::Level::kWarning, fmt::format("the e-stop is latched: {}; re-arm to drive{}", why,
+                                                   estop_memory_.crashed() ? kSayWhere : ""));
 }
 
 void RobotApp::Tick(Time now) {

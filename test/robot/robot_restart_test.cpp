@@ -79,6 +79,19 @@ TEST_F(RestartTest, AfterACrashNeitherOperatorNorPathMovesItBeforeSomebodyReArms
   EXPECT_TRUE(Drives(*robot));
 }
 
+TEST_F(RestartTest, AfterACrashThePoseIsUnknownAndAfterAnOrderlyEndItIsNot) {
+  auto robot = Started();
+  robot.reset();
+  robot = Started();
+  ASSERT_TRUE(robot->pose.get());
+  EXPECT_LT(robot->pose.get()->sigma_x_m, 0.2);
+  Crash(std::move(robot));
+  robot = Started();
+  ASSERT_TRUE(robot->pose.get());
+  EXPECT_GT(robot->pose.get()->sigma_x_m, 0.5) << "where a planner takes it for lost";
+  EXPECT_THAT(robot->log, Contains(HasSubstr("priamos place")));
+}
+
 TEST_F(RestartTest, ARearmingThatCannotBeWrittenDownIsNone) {
   auto robot = Started();
   robot->SendEstop(estop_t::STOP);

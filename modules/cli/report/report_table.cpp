@@ -102,7 +102,8 @@ void PrintHand(std::ostream& out, const HandSummary& hand) {
 
 std::string Verdict(const Summary& summary) {
   return fmt::format("{}, {}", summary.passed ? "passed" : "not passed",
-                     summary.contacts == 0   ? "nothing touched"
+                     summary.contacts == 0
+                         ? (summary.touches.empty() ? "nothing touched" : "touched by what came")
                      : summary.contacts == 1 ? "one contact"
                                              : fmt::format("{} contacts", summary.contacts));
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "common/learned/edge_walls.hpp"
 #include "common/learned/wall_gaps.hpp"
@@ -52,6 +53,25 @@ DoorPlan DoorIn(const WallGap& gap, int id, double thickness_m) {
   return door;
 }
 
+/// What a plan can hold: not so short that it has no direction, and on the map.
+bool FitsPlan(const LearnedWall& wall) {
+  constexpr double kShortest_m = 0.01, kMap_m = 100;
+  const double farthest_m = std::max(wall.from().cwiseAbs().maxCoeff(), wall.to().cwiseAbs().maxCoeff());
+  return wall.length_m >= kShortest_m && farthest_m < kMap_m - 1;
+}
+
+/// Of an end of most of the walls, across them, within what a plan takes.
+double WallSigma(const LearnedWalls& learned) {
+  constexpr double kLeast_m = 0.005, kMost_m = 0.32;
+  std::vector<double> sigmas;
+  sigmas.reserve(learned.walls.size());
+  for (const LearnedWall& wall : learned.walls) sigmas.push_back(wall.SigmaAt(wall.length_m / 2));
+  if (sigmas.empty()) return GroundPlan{}.wall_sigma_m;
+  const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
+  std::nth_element(sigmas.begin(), middle, sigmas.end());
+  return std::clamp(*middle, kLeast_m, kMost_m);
+}
+
 bool IsKnown(const GroundPlan& plan, const DoorPlan& door) {
   return std::any_of(plan.doors.begin(), plan.doors.end(), [&](const DoorPlan& other) {
     return std::hypot(other.x_m - door.x_m, other.y_m - door.y_m) < door.opening_width_m / 2;
@@ -61,8 +81,10 @@ bool IsKnown(const GroundPlan& plan, const DoorPlan& door) {
 }  // namespace
 
 GroundPlan PlanOf(const LearnedWalls& told, double fits_m) {
-  const LearnedWalls learned = WithoutEdges(told);
+  LearnedWalls learned = WithoutEdges(told);
+  std::erase_if(learned.walls, [](const LearnedWall& wall) { return !FitsPlan(wall); });
   GroundPlan plan;
+  plan.wall_sigma_m = WallSigma(learned);
   for (const LearnedWall& face : learned.walls)
     plan.walls.push_back(WallBehind(face, ThicknessOf(face, learned).value_or(kThickness_m)));
   for (const WallGap& gap : GapsOf(learned)) {

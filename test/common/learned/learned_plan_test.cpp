@@ -28,6 +28,20 @@ TEST(LearnedPlanTest, NothingLearnedIsAnEmptyPlan) {
   EXPECT_THAT(PlanOf({}, 0.98).walls, IsEmpty());
 }
 
+TEST(LearnedPlanTest, ItSaysHowWellItsWallsAreKnown) {
+  LearnedWalls learned{1, 1, {Face(1, 2, 1, 0, 3), Face(2, 2, 5, 0, 3), Face(3, 2, 9, 0, 3)}, {}};
+  for (LearnedWall& wall : learned.walls) wall.sigma_across_m = 0.1 * wall.id;
+  EXPECT_NEAR(PlanOf(learned, 0.98).wall_sigma_m, 0.2, 1e-9);
+  for (LearnedWall& wall : learned.walls) wall.sigma_across_m = 0.9;
+  EXPECT_NEAR(PlanOf(learned, 0.98).wall_sigma_m, 0.32, 1e-9) << "as much as a plan takes";
+}
+
+TEST(LearnedPlanTest, WallsThatNoPlanTakesAreLeftOut) {
+  EXPECT_THAT(
+      PlanOf({1, 1, {Face(1, 150, 1, 0, 3), Face(2, 2, 1, 0, 0), Face(3, 2, 1, 0, 3)}, {}}, 0.98).walls,
+      SizeIs(1));
+}
+
 TEST(LearnedPlanTest, TheWallIsBehindTheFaceThatWasHeard) {
   const GroundPlan dut = PlanOf({1, 1, {Face(4, 2, 1, 0, 3)}, {}}, 0.98);
   ASSERT_THAT(dut.walls, SizeIs(1));

@@ -125,7 +125,8 @@ void AddRunVerb(CLI::App& mission, int& exit_code) {
               "Order the steps of a file, which is checked before anything moves; ends when they are under "
               "way or wait, with --wait when they are over (exit code 1: not done).");
   verb->footer("Example: priamos mission run config/sim/missions/round.toml --wait");
-  verb->add_option("file", options->file, "TOML: [[step]] with do = goto, door, elevator, wait or repeat")
+  verb->add_option("file", options->file,
+                   "TOML: [[step]] with do = goto, door, elevator, corridor, explore, locate, wait or repeat")
       ->required();
   verb->add_flag("--wait", options->wait, "until they are over");
   AddPlannerOptions(*verb, *options);

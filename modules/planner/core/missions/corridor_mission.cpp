@@ -15,6 +15,9 @@ namespace {
 constexpr double kMost_m = 180;  ///< as far as an order and the report of what is left reach
 constexpr double kMap_m = 99.9;  ///< as far as a point of a path may lie from the origin of the map
 
+/// A base that has come so far beyond what closes the corridor on the plan has not come there.
+constexpr double kBeyond_m = 5;
+
 /// How far a line leads before it leaves the map.
 double LengthOnMap(const Pose2& from) {
   double length_m = std::numeric_limits<double>::infinity();
@@ -74,6 +77,12 @@ void CorridorMission::Step(MissionControl& control) {
   if (IsBesideWall(control)) beside_m_ = driven_m_;
   if (order_.distance_m == 0 && driven_m_ - beside_m_.value_or(0) > config_.open_m)
     return EndInTheOpen(control);
+  if (end_m_ && driven_m_ > *end_m_ + kBeyond_m)
+    return control.Fail(
+        fmt::format("the wheels say {:.1f} m, and on the plan a wall closes the corridor after "
+                    "{:.1f} m: do they turn while the base stands? next: look where it is, and "
+                    "say so with priamos place",
+                    driven_m_, *end_m_));
   const bool is_new = heard.pose->stamp > *control.path_sent();
   if (!is_new || !control.OnPath() || heard.drive->mode != DriveMode::kArrived) return;
   if (backs_off_) return Follow(control, length_m_ - driven_m_);
@@ -144,7 +153,8 @@ bool CorridorMission::MayLeadOn() const {
 /// Where nothing leaves room for the base a corridor ends, unless it was to lead on: then it is looked at
 /// again, in turn from here and from farther back.
 void CorridorMission::OnStop(MissionControl& control, const Stop& stop) {
-  if (stop.cause != Stop::Cause::kBlocked) return control.Fail(stop.reason);
+  if (stop.cause != Stop::Cause::kBlocked)
+    return control.Fail(stop.reason + "; next: look what it is, and order it again");
   if (backs_off_) return Follow(control, length_m_ - driven_m_);  // something stands behind
   driven_m_ = Driven_m(control);
   if (!MayLeadOn()) return Close(control, stop);

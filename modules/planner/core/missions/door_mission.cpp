@@ -245,7 +245,10 @@ void DoorMission::LookAtDoor(MissionControl& control) {
   if (!looking || !looks_.Ready(control.now())) return;
   if (!LooksUsedUp()) return LookFromHere(control);
   if (!judge_ && !StandBack(control))
-    control.Fail(fmt::format("{} looks failed, the last one: {}", looks_.failures(), looks_.trouble()));
+    control.Fail(
+        fmt::format("{} looks failed, the last one: {}; next: look whether the door is shut or hidden, "
+                    "and order it again",
+                    looks_.failures(), looks_.trouble()));
 }
 
 bool DoorMission::StandBack(MissionControl& control) {

@@ -21,6 +21,9 @@ void MecanumConfig::Describe(Archive& a) {
 
 namespace {
 
+/// A base that too few wheels drive rolls on, and comes to rest in about so long.
+constexpr double kCoast_s = 1;
+
 /// Contact speed of wheel `i` that agrees with the other three: front and rear pair have the same sum.
 double FreeRolling(const PerWheel& c, std::size_t i) {
   constexpr std::array<std::size_t, 4> kBeside{1, 0, 3, 2};
@@ -51,14 +54,25 @@ Twist2 MecanumBase::Step(const PerWheel& speed_rad_s, double dt_s) {
     const double driven_slip = config_.acceleration_slip_s2_m * acceleration * (rolled < 0 ? -1 : 1);
     contact_m_s[i] = rolled * (1 - slip_[i] - driven_slip);
   }
-  for (std::size_t i = 0; i < 4; ++i)
-    if (loose_[i]) contact_m_s[i] = previous_m_s_[i] = FreeRolling(contact_m_s, i);
+  RollLoose(dt_s, contact_m_s);
   const auto& c = contact_m_s;
   Twist2 twist;
   twist.vx = (c[0] + c[1] + c[2] + c[3]) / 4;
   twist.vy = (-c[0] + c[1] + c[2] - c[3]) / 4 * (1 - lateral_loss_);
   twist.wz = (-c[0] + c[1] - c[2] + c[3]) / (4 * lever_m_);
+  twist_ = twist;
   return twist;
+}
+
+/// Three driven wheels lead the base, and the fourth follows. Fewer leave it free in some direction: there it
+/// rolls on as it moved.
+void MecanumBase::RollLoose(double dt_s, PerWheel& contact_m_s) {
+  const bool is_led = std::count(loose_.begin(), loose_.end(), true) <= 1;
+  const PerWheel coasting = ContactSpeeds(twist_);
+  const double keeps = std::max(0.0, 1 - dt_s / kCoast_s);
+  for (std::size_t i = 0; i < 4; ++i)
+    if (loose_[i])
+      contact_m_s[i] = previous_m_s_[i] = is_led ? FreeRolling(contact_m_s, i) : keeps * coasting[i];
 }
 
 PerWheel MecanumBase::ContactSpeeds(const Twist2& twist) const {

@@ -45,12 +45,15 @@ class MecanumBase {
   PerWheel RimSpeeds() const { return previous_m_s_; }
 
  private:
+  void RollLoose(double dt_s, PerWheel& contact_m_s);
+
   MecanumConfig config_;
   Rng rng_;
   double lever_m_;
   double lateral_loss_;
   PerWheel radius_m_, slip_{}, previous_m_s_{};
   std::array<bool, 4> loose_{};
+  Twist2 twist_;  ///< of the last step
 };
 
 }  // namespace priamos::world

@@ -194,6 +194,14 @@ TEST(CorridorMissionTest, WhatClosesItIsHeardAnewFromFartherBack) {
       << "what was left of the way";
 }
 
+TEST(CorridorMissionTest, WhoDrivesThroughTheEndOfThePlanByItsWheelsIsNotBelieved) {
+  Story s;
+  s.Start(0);
+  s.robot.RunFor(400);
+  EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
+  EXPECT_THAT(s.dut.state().text, HasSubstr("do they turn while the base stands? next: "));
+}
+
 TEST(CorridorMissionTest, ATouchEndsIt) {
   Story s;
   s.Start(0);
@@ -201,7 +209,7 @@ TEST(CorridorMissionTest, ATouchEndsIt) {
   s.robot.touched = true;
   s.robot.RunFor(5);
   EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
-  EXPECT_EQ(s.dut.state().text, "the robot touched something");
+  EXPECT_EQ(s.dut.state().text, "the robot touched something; next: look what it is, and order it again");
 }
 
 TEST(CorridorMissionTest, ABlackoutIsDrivenThroughWithoutANewOrder) {

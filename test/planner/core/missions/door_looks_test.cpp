@@ -105,7 +105,10 @@ TEST(DoorLooks, WithoutRoomBehindItGivesUpAtTheHoldPoint) {
   s.Start();
   s.robot.RunFor(60);
   EXPECT_EQ(s.dut.state().phase, Phase::kFailed);
-  EXPECT_EQ(s.dut.state().text, "9 looks failed, the last one: left side of the door not found: ambiguous");
+  EXPECT_EQ(
+      s.dut.state().text,
+      "9 looks failed, the last one: left side of the door not found: ambiguous; next: look whether the "
+      "door is shut or hidden, and order it again");
   EXPECT_GT(s.robot.truth().x, 6 - 1.9);
 }
 

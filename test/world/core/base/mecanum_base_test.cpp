@@ -54,6 +54,24 @@ TEST(MecanumBaseTest, ContradictingWheelsOnlyScrub) {
   EXPECT_NEAR(std::hypot(twist.vx, twist.vy, twist.wz), 0, 1e-12);
 }
 
+TEST(MecanumBaseTest, WithTwoOrMoreLooseWheelsItIsNoFasterThanDrivenAndComesToRest) {
+  for (const std::vector<std::size_t>& loose :
+       {std::vector<std::size_t>{0}, {0, 3}, {0, 1}, {0, 2}, {1, 2, 3}, {0, 1, 2, 3}}) {
+    MecanumBase dut(MecanumConfig{}, Rng(7));
+    for (int i = 0; i < 400; ++i) dut.Step({5, 5, 5, 5}, 0.0025);
+    for (const std::size_t wheel : loose) dut.Loosen(wheel);
+    double fastest_m_s = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const Twist2 twist = dut.Step({5, 5, 5, 5}, 0.0025);
+      fastest_m_s = std::max(fastest_m_s, std::hypot(twist.vx, twist.vy));
+    }
+    EXPECT_LT(fastest_m_s, 0.6) << loose.size();
+    Twist2 twist;
+    for (int i = 0; i < 4000; ++i) twist = dut.Step({0, 0, 0, 0}, 0.0025);
+    EXPECT_LT(std::hypot(twist.vx, twist.vy, twist.wz), 0.01) << loose.size();
+  }
+}
+
 TEST(MecanumBaseTest, ThreeMetresStraightDriftInTheStatedBand) {
   std::vector<double> lateral, along, heading;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
