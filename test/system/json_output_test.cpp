@@ -53,7 +53,7 @@ const std::vector<Call> kCalls{
     {"mission explore", ""},
     {"mission locate", ""},
     {"mission patrol", "3 2.4 4 2.4"},
-    {"mission elevator", "cabin --deployment $SOURCE/config/sim"},
+    {"mission elevator", "cabin --deployment $O/lift"},
     {"mission run", "$SOURCE/config/sim/missions/round.toml --deployment $SOURCE/config/sim"},
     {"mission cancel", "4711"},
     {"param list", "robot --deployment $SOURCE/config/sim"},
@@ -178,6 +178,8 @@ TEST(JsonOutput, OfEveryVerbIsNothingButJson) {
 )sh";
   std::string script =
       helpers + "O=" + folder.path().string() + "; LOG=$SOURCE/logs/recorded/door-onboard.lcmlog; cd $O\n" +
+      "cp -r $SOURCE/config/sim $O/lift; sed -i 's#^map = .*#map = \"maps/elevator.toml\"#' "
+      "$O/lift/planner.toml\n" +
       "$BIN/priamos up $SOURCE/config/sim --detach --logs $O/up > up.text || cat up.text\nready\n";
   for (std::size_t i = 0; i < kCalls.size(); ++i)
     script += kCalls[i].streams ? fmt::format("stream {}.out {}.err $BIN/priamos {} --json {}\n", i, i,
