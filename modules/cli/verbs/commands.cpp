@@ -3,6 +3,7 @@
 #include <CLI/App.hpp>
 
 #include "cli/front/estop_command.hpp"
+#include "cli/mrpt/log_mrpt.hpp"
 #include "cli/verbs/deployment/commands.hpp"
 #include "cli/verbs/help/commands.hpp"
 #include "cli/verbs/log/commands.hpp"

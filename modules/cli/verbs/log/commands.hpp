@@ -23,9 +23,6 @@ void AddLogFilterVerb(CLI::App& log, int& exit_code);
 void AddLogRepairVerb(CLI::App& log, int& exit_code);
 void AddLogMergeVerb(CLI::App& log, int& exit_code);
 
-/// The verb of `log` that needs MRPT.
-void AddLogMrptVerb(CLI::App& log, int& exit_code);
-
 /// The verbs of `log` that need a bus.
 void AddLogRecordVerb(CLI::App& log, int& exit_code);
 void AddLogPlayVerb(CLI::App& log, int& exit_code);

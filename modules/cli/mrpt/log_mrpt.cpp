@@ -1,3 +1,5 @@
+#include "cli/mrpt/log_mrpt.hpp"
+
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
@@ -9,7 +11,6 @@
 #include "cli/mrpt/mrpt_run.hpp"
 #include "cli/options/counted.hpp"
 #include "cli/options/log_options.hpp"
-#include "cli/verbs/log/commands.hpp"
 #include "cli/verbs/log/log_verb.hpp"
 #include "common/robot/body_size.hpp"
 
