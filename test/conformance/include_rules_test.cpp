@@ -52,7 +52,8 @@ bool LibraryAllowed(const std::string& from, const std::string& file, const std:
   if (header.starts_with("opencv2/")) return in({"head/core", "world/core", "head", "world"});
   if (header.starts_with("cairo") || header.starts_with("pango"))
     return file.starts_with("modules/common/drawing/");
-  if (header.starts_with("mrpt/")) return from.ends_with("/core");
+  if (header.starts_with("mrpt/"))
+    return from.ends_with("/core") || file.starts_with("modules/cli/verbs/mrpt/");
   if (header.starts_with("ceres/")) return in({"head/core"});
   if (header.starts_with("lcm/")) return file == "bus/wire/lcm_bus.cpp";
   if (header.starts_with("sodium")) return in({"bus", "cli", "radio"});

@@ -3,10 +3,10 @@
 #include <CLI/App.hpp>
 
 #include "cli/front/estop_command.hpp"
-#include "cli/mrpt/log_mrpt.hpp"
 #include "cli/verbs/deployment/commands.hpp"
 #include "cli/verbs/help/commands.hpp"
 #include "cli/verbs/log/commands.hpp"
+#include "cli/verbs/mrpt/log_mrpt.hpp"
 #include "cli/verbs/pictures/commands.hpp"
 #include "cli/verbs/robot/commands.hpp"
 #include "cli/verbs/run/commands.hpp"
@@ -27,6 +27,7 @@ void AddCommands(CLI::App& cli, int& exit_code) {
   AddParamCommand(cli, exit_code);
   AddTopicCommand(cli, exit_code);
   AddLogCommand(cli, exit_code);
+  AddLogMrptVerb(*cli.get_subcommand("log"), exit_code);
   AddReplayCommand(cli, exit_code);
   AddReportCommand(cli, exit_code);
   AddTypeCommand(cli, exit_code);

@@ -1,4 +1,4 @@
-#include "cli/mrpt/mrpt_run.hpp"
+#include "cli/verbs/mrpt/mrpt_run.hpp"
 
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CObservationOdometry.h>

@@ -1,4 +1,4 @@
-#include "cli/mrpt/log_mrpt.hpp"
+#include "cli/verbs/mrpt/log_mrpt.hpp"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "bus/log/type_texts.hpp"
-#include "cli/mrpt/mrpt_run.hpp"
 #include "cli/options/counted.hpp"
 #include "cli/options/log_options.hpp"
 #include "cli/verbs/log/log_verb.hpp"
+#include "cli/verbs/mrpt/mrpt_run.hpp"
 #include "common/robot/body_size.hpp"
 
 namespace priamos::cli {
