@@ -211,11 +211,10 @@ mission_command_t OrderOf(const MissionFile& file, const planner::PlannerConfig&
       Repeat(step, first.size(), first, order.steps);
       continue;
     }
-    const auto add = [&](const mission_step_t& message) {
+    for (const mission_step_t& message : MessagesOf(step, rehearsal, plan, map)) {
       order.steps.push_back(message);
       if (const auto why = rehearsal.Do(message)) throw ConfigError(step.place.Begin() + *why);
-    };
-    for (const mission_step_t& message : MessagesOf(step, rehearsal, plan, map)) add(message);
+    }
   }
   CheckNumber(order.steps.size(), file);
   const MissionFileStep& begin = file.steps.front();

@@ -7,7 +7,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bus/log/type_texts.hpp"
 #include "cli/options/counted.hpp"
 #include "cli/options/log_options.hpp"
 #include "cli/verbs/log/log_verb.hpp"

@@ -89,8 +89,9 @@ Outcome<PlannedPath> DoorPlanner::CheckPath(const Pose2& start, std::vector<Pose
 std::vector<std::vector<Pose2>> DoorPlanner::PassageCandidates(const DoorPlan& door,
                                                                const Pose2& start) const {
   std::vector<std::vector<Pose2>> candidates;
+  const double goal_x = GoalX(door);
   const auto add = [&](std::vector<Pose2> path_in_door) {
-    path_in_door.push_back({GoalX(door), 0, 0});
+    path_in_door.push_back({goal_x, 0, 0});
     for (Pose2& point : path_in_door) point = door.map_from_door() * point;
     candidates.push_back(std::move(path_in_door));
   };
